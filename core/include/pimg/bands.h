@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The intensities of a progressive image: for one channel, the values of the base mesh and the
+// details (dt, du) of every split (paper, section 3.3). Any channel can be analysed onto an
+// existing hierarchy; a filter is a gain on the details; synthesis is one linear sweep.
+#pragma once
+
+#include <vector>
+
+#include <pimg/hierarchy.h>
+
+namespace pimg {
+
+/// Details of one split: intensity minus what the coarser mesh predicts there.
+struct Detail {
+    float t, u;
+};
+
+/// One channel on a hierarchy. `base[v]` are the values of the base vertices,
+/// `details[i]` belong to split i.
+struct Bands {
+    std::vector<float> base;
+    std::vector<Detail> details;
+
+    /// Largest |detail|, 0 for none.
+    float largest_detail() const;
+};
+
+/// Analyses channels onto a hierarchy. Each holds one finite value per mesh pixel, row-major (to_mesh_pixels()).
+/// As for the guide, the value of a coarse vertex preserves the volume under the surface, so every M_i
+/// has the channel's mean; that takes the topology of every level, so the splits are replayed, once for all
+/// channels. Synthesis with untouched details returns the samples to within one rounding.
+/// Fails only on a damaged hierarchy.
+Status analyse(const Hierarchy& hierarchy, const std::vector<const float*>& channels, std::vector<Bands>& bands);
+
+/// Copies a picture's samples (row-major, width x height) to mesh pixels: the same, but for pictures one
+/// pixel wide or high, whose only column or row is repeated.
+std::vector<float> to_mesh_pixels(const Hierarchy& hierarchy, const float* samples);
+
+/// Makes level `level` the base mesh: the splits before it are forgotten.
+Status rebase(Hierarchy& hierarchy, Bands& bands, Level level);
+
+/// Values of all vertices of level `level`, indexed by vertex number.
+std::vector<float> values_at(const Hierarchy& hierarchy, const Bands& bands, Level level);
+
+/// One pass from coarse to fine over the first `levels` splits: values[v] of every vertex of that level, where
+/// gain(i, detail) returns the detail to use for split i. `values` holds base_vertices() + levels floats.
+template<class Gain>
+void sweep(const Hierarchy& hierarchy, const Bands& bands, float* values, Level levels, Gain&& gain);
+
+/// The same at the finest level without a gain, written to the mesh pixels (row-major).
+void synthesise(const Hierarchy& hierarchy, const Bands& bands, float* samples);
+
+/// Moves values from vertex order to mesh pixels (row-major).
+void scatter(const Hierarchy& hierarchy, const float* values, float* samples);
+
+/// Turns details that hold the true values of t and u into details proper. Done against the
+/// values synthesis will have at each level, so that no rounding adds up over the levels.
+void values_to_details(const Hierarchy& hierarchy, Bands& bands);
+
+template<class Gain>
+void sweep(const Hierarchy& hierarchy, const Bands& bands, float* values, Level levels, Gain&& gain)
+{
+    const Index base = hierarchy.base_vertices();
+    for (Index v = 0; v < base; ++v)
+        values[v] = bands.base[v];
+    const Stencil* stencil = hierarchy.stencils.data();
+    const Detail* detail = bands.details.data();
+    for (Level i = 0; i < levels; ++i) {
+        const Stencil& k = stencil[i];
+        const float s = values[k.s];
+        const Detail d = gain(i, detail[i]);
+        const float t = s + (k.wat * (values[k.at] - s) + k.wbt * (values[k.bt] - s)) + d.t;
+        values[base + i] = s + (k.wau * (values[k.au] - s) + k.wbu * (values[k.bu] - s)) + d.u;
+        values[k.s] = t;
+    }
+}
+
+}  // namespace pimg

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Builds a hierarchy: full-edge collapses by memoryless volume optimisation (Lindstrom & Turk 1998,
+// 1999; paper, section 3.2) from one vertex per pixel down to a base mesh.
+#pragma once
+
+#include <vector>
+
+#include <pimg/bands.h>
+#include <pimg/hierarchy.h>
+#include <pimg/types.h>
+
+namespace pimg {
+
+/// The channel that decides the geometry: one finite sample per pixel, row-major. One unit is
+/// about one step of an 8-bit picture: |samples| should be of the order of 255 so that
+/// noise and features are told apart on the right scale.
+struct Guide {
+    int width = 0, height = 0;
+    const float* samples = nullptr;
+};
+
+struct SimplifyOptions {
+    Index base_faces = 128;  ///< triangles of the base mesh; 2 (the four corners) or more
+    ParallelFor parallel;    ///< threads to use; the result does not depend on them
+    Progress progress;
+};
+
+/// What building returns besides the hierarchy.
+struct SimplifyStats {
+    std::size_t collapses = 0;
+    std::size_t evaluations = 0;  ///< rings whose edge costs were computed
+    std::size_t refused = 0;      ///< collapses the guard turned down
+    std::size_t peak_bytes = 0;   ///< working memory of the engine at its largest
+};
+
+/// Simplifies the height field of `guide`. `bands` receives the guide's own bands, whose coarse
+/// values preserve the volume under the surface at every level: the mean intensity of every M_i is the picture's.
+/// Fails on an empty or oversized guide, or when `progress` asked to stop.
+Status simplify(const Guide& guide, const SimplifyOptions& options, Hierarchy& hierarchy, Bands& bands,
+                SimplifyStats* stats = nullptr);
+
+}  // namespace pimg

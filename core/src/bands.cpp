@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pimg/bands.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pimg {
+
+float Bands::largest_detail() const
+{
+    float largest = 0.0f;
+    for (Detail d : details)
+        largest = std::max({ largest, std::fabs(d.t), std::fabs(d.u) });
+    return largest;
+}
+
+void values_to_details(const Hierarchy& h, Bands& bands)
+{
+    std::vector<float> values(h.vertices());
+    std::vector<Detail>& details = bands.details;
+    sweep(h, bands, values.data(), h.levels(), [&](Level i, Detail) {
+        const Stencil& k = h.stencils[i];
+        const float s = values[k.s];
+        const float t = s + (k.wat * (values[k.at] - s) + k.wbt * (values[k.bt] - s));
+        const float u = s + (k.wau * (values[k.au] - s) + k.wbu * (values[k.bu] - s));
+        details[i] = { details[i].t - t, details[i].u - u };
+        return details[i];
+    });
+}
+
+std::vector<float> to_mesh_pixels(const Hierarchy& h, const float* samples)
+{
+    std::vector<float> mesh;
+    mesh.reserve(h.mesh_pixels());
+    for (int y = 0; y < h.mesh_height(); ++y)
+        for (int x = 0; x < h.mesh_width(); ++x)
+            mesh.push_back(samples[std::size_t(std::min(y, h.height - 1)) * std::size_t(h.width)
+                                   + std::size_t(std::min(x, h.width - 1))]);
+    return mesh;
+}
+
+std::vector<float> values_at(const Hierarchy& h, const Bands& bands, Level level)
+{
+    level = std::min(level, h.levels());
+    std::vector<float> values(std::size_t(h.base_vertices()) + level);
+    sweep(h, bands, values.data(), level, [](Level, Detail d) { return d; });
+    return values;
+}
+
+Status rebase(Hierarchy& h, Bands& bands, Level level)
+{
+    Mesh mesh;
+    const Status status = refine(h, level, mesh);
+    if (!status)
+        return status;
+    bands.base = values_at(h, bands, level);
+    h.base_triangles = mesh.triangles();
+    h.base_points.resize(mesh.size());
+    for (Index v = 0; v < mesh.size(); ++v)
+        h.base_points[v] = mesh.point(v);
+    h.splits.erase(h.splits.begin(), h.splits.begin() + level);
+    h.stencils.erase(h.stencils.begin(), h.stencils.begin() + level);
+    h.costs.erase(h.costs.begin(), h.costs.begin() + level);
+    bands.details.erase(bands.details.begin(), bands.details.begin() + level);
+    return {};
+}
+
+void scatter(const Hierarchy& h, const float* values, float* samples)
+{
+    for (Index v = 0; v < h.vertices(); ++v)
+        samples[h.pixels[v]] = values[v];
+}
+
+void synthesise(const Hierarchy& h, const Bands& bands, float* samples)
+{
+    std::vector<float> values(h.vertices());
+    sweep(h, bands, values.data(), h.levels(), [](Level, Detail d) { return d; });
+    scatter(h, values.data(), samples);
+}
+
+}  // namespace pimg

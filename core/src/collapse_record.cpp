@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "collapse_record.h"
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+
+namespace pimg {
+
+Projection project(Point p, Point s, int degree, const Index* ring, const Point* points)
+{
+    Projection found { kGhost, kGhost, 0.0f, 0.0f };
+    for (int i = 0; i < degree; ++i) {
+        const int next = i + 1 < degree ? i + 1 : 0;
+        if (ring[i] == kGhost || ring[next] == kGhost)
+            continue;
+        const std::int64_t b = doubled_area(s, points[i], p);
+        const std::int64_t a = doubled_area(s, p, points[next]);
+        const bool holds = a >= 0 && b >= 0;
+        if (!holds && found.a != kGhost)
+            continue;
+        const double area = double(doubled_area(s, points[i], points[next]));
+        found = { ring[i], ring[next], float(double(a) / area), float(double(b) / area) };
+        if (holds)
+            return found;
+        // Outside every face seen so far: keep the first only as an answer for a damaged star.
+    }
+    return found;
+}
+
+namespace {
+
+/// Indices of `records` by increasing order, ties in the order they were done: a radix sort
+/// on the bits of the floats, which are never negative.
+std::vector<Index> sorted(const std::vector<CollapseRecord>& records)
+{
+    constexpr int kBits = 11, kBuckets = 1 << kBits;
+    const auto key = [&](Index i) {
+        std::uint32_t bits;
+        std::memcpy(&bits, &records[i].order, sizeof bits);
+        return bits;
+    };
+    std::vector<Index> from(records.size()), to(records.size());
+    std::iota(from.begin(), from.end(), Index(0));
+    for (int shift = 0; shift < 32; shift += kBits) {
+        std::vector<std::size_t> start(kBuckets + 1, 0);
+        for (Index i : from)
+            ++start[((key(i) >> shift) & (kBuckets - 1)) + 1];
+        std::partial_sum(start.begin(), start.end(), start.begin());
+        for (Index i : from)
+            to[start[(key(i) >> shift) & (kBuckets - 1)]++] = i;
+        from.swap(to);
+    }
+    return from;
+}
+
+/// Number of each name: base vertices first, then one per split, coarse to fine.
+std::vector<Index> number_names(std::size_t names, const std::vector<BaseVertex>& base,
+                                const std::vector<CollapseRecord>& records, const std::vector<Index>& by_order)
+{
+    std::vector<Index> number(names, kGhost);
+    Index next = 0;
+    for (const BaseVertex& v : base)
+        number[v.name] = next++;
+    for (std::size_t i = by_order.size(); i-- > 0;)
+        number[records[by_order[i]].u] = next++;
+    return number;
+}
+
+void fill_base(const std::vector<BaseVertex>& base, const std::vector<Index>& number, Hierarchy& h, Bands& bands)
+{
+    for (const BaseVertex& v : base) {
+        const Index n = number[v.name];
+        h.base_points.push_back(v.p);
+        bands.base.push_back(v.z);
+        for (int j = 0; j < v.degree; ++j) {
+            const Index a = v.ring.v[std::size_t(j)], b = v.ring.v[std::size_t((j + 1) % v.degree)];
+            if (a != kGhost && b != kGhost && n < number[a] && n < number[b])
+                h.base_triangles.push_back({ n, number[a], number[b] });
+        }
+    }
+}
+
+/// Splits, stencils and costs in coarse-to-fine order; details hold the true intensities of t and u for now.
+void fill_splits(const std::vector<CollapseRecord>& records, const std::vector<Index>& by_order,
+                 const std::vector<Index>& number, Hierarchy& h, Bands& bands)
+{
+    const std::size_t n = records.size();
+    h.splits.resize(n);
+    h.stencils.resize(n);
+    h.costs.resize(n);
+    bands.details.resize(n);
+    const auto renumber = [&](Index name) { return name == kGhost ? kGhost : number[name]; };
+    for (std::size_t i = 0; i < n; ++i) {
+        const CollapseRecord& r = records[by_order[n - 1 - i]];
+        h.splits[i] = { number[r.split.s], renumber(r.split.vl), renumber(r.split.vr), r.split.t, r.split.u };
+        h.stencils[i] = { number[r.stencil.s], number[r.stencil.at], number[r.stencil.bt], number[r.stencil.au],
+                          number[r.stencil.bu], r.stencil.wat, r.stencil.wbt, r.stencil.wau, r.stencil.wbu };
+        h.costs[i] = r.order;
+        bands.details[i] = { r.zt, r.zu };
+    }
+}
+
+}  // namespace
+
+Status assemble(int width, int height, const std::vector<BaseVertex>& base, std::vector<CollapseRecord>&& records,
+                Index base_faces, Hierarchy& hierarchy, Bands& bands)
+{
+    Hierarchy h;
+    Bands b;
+    h.width = width;
+    h.height = height;
+    {
+        const std::vector<CollapseRecord> collapses = std::move(records);
+        const std::vector<Index> by_order = sorted(collapses);
+        const std::vector<Index> number = number_names(h.mesh_pixels(), base, collapses, by_order);
+        fill_base(base, number, h, b);
+        fill_splits(collapses, by_order, number, h, b);
+        h.pixels.resize(h.mesh_pixels());
+        for (Index name = 0; name < Index(number.size()); ++name)
+            h.pixels[number[name]] = name;
+    }
+    values_to_details(h, b);
+    const Level level = h.level_of_faces(base_faces);
+    Status status = level > 0 ? rebase(h, b, level) : Status();
+    if (status) {
+        hierarchy = std::move(h);
+        bands = std::move(b);
+    }
+    return status;
+}
+
+}  // namespace pimg

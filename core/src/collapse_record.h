@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the engine writes down about each collapse, and how the sequence becomes a hierarchy.
+#pragma once
+
+#include <vector>
+
+#include <pimg/bands.h>
+#include <pimg/hierarchy.h>
+
+namespace pimg {
+
+/// One edge collapse in the order it was done. Vertices go by name: the mesh pixel whose
+/// vertex they started as; s keeps the name of t.
+struct CollapseRecord {
+    Split split;      ///< s = name of t
+    Index u;          ///< name of u
+    Stencil stencil;
+    float zt, zu;     ///< intensities before the collapse
+    float order;      ///< cost, no lower than that of any collapse this one needs
+};
+
+/// A vertex of the mesh that is left at the end.
+struct BaseVertex {
+    Index name;
+    Point p;
+    float z;
+    Ring ring;   ///< by name
+    int degree;
+};
+
+/// Sorts the collapses by order (any two that do not depend on each other commute), numbers the vertices by
+/// the split that makes them, turns intensities into details, and keeps the coarsest level
+/// of at least `base_faces` triangles as base mesh.
+Status assemble(int width, int height, const std::vector<BaseVertex>& base, std::vector<CollapseRecord>&& records,
+                Index base_faces, Hierarchy& hierarchy, Bands& bands);
+
+/// Face (s, a, b) of the star of s that holds `p`, and the weights of a and b. `ring` is that of s in
+/// the coarser mesh starting with vr of the split; the first face that holds p is taken, from exact integers: everybody who
+/// replays the splits finds the same stencil. `points` are the positions of the ring's vertices.
+struct Projection {
+    Index a, b;
+    float wa, wb;
+};
+Projection project(Point p, Point s, int degree, const Index* ring, const Point* points);
+
+}  // namespace pimg

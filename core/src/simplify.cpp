@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The driver of the simplification. Locality is what it costs, not arithmetic: so there is no global
+// queue. Tiles are visited in order, each is collapsed up to a cost limit while it sits in the cache, and the limit
+// rises from sweep to sweep. Inside a tile the limit rises in finer steps. Keys are lazy: a vertex is
+// evaluated again only when its old cost comes up. Why this loses no quality: docs/internals.md.
+#include <pimg/simplify.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "collapse_record.h"
+#include "tile_worker.h"
+#include "working_mesh.h"
+
+namespace pimg {
+
+namespace {
+
+constexpr float kFirstLimit = 1e-3f;  ///< about the cost floor of a pixel-sized edge
+constexpr float kSweepFactor = 4.0f;  ///< between the limits of successive sweeps
+/// Shares of a sweep's limit through which a tile approaches it: powers of 4^(1/6).
+constexpr float kSteps[] = { 0.31498026f, 0.39685026f, 0.5f, 0.62996052f, 0.79370052f, 1.0f };
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// Shape a triangle must keep: twice its area over its longest edge squared. The second
+/// value only serves to finish down to the corners when the first leaves nothing to do.
+constexpr float kGuards[2] = { 1e-3f, 1e-5f };
+
+class Simplifier {
+public:
+    Simplifier(const float* samples, int width, int height, const SimplifyOptions& options)
+        : m_mesh(samples, width, height), m_options(options), m_total(m_mesh.alive())
+    {
+        m_stats.peak_bytes = m_mesh.bytes();
+    }
+
+    /// False when progress asked to stop.
+    bool run();
+
+    std::vector<BaseVertex> base() const;
+    std::vector<CollapseRecord> take_records() { return std::move(m_records); }
+    const SimplifyStats& stats() const { return m_stats; }
+
+private:
+    bool sweep(float limit);
+    void sweep_color(int color, float limit);
+    void collect(TileOutput& output);
+    bool anything_left() const;
+    bool report() const;
+
+    WorkingMesh m_mesh;
+    const SimplifyOptions& m_options;
+    Index m_total;
+    float m_guard = kGuards[0];
+    std::vector<CollapseRecord> m_records;
+    std::vector<Index> m_deferred;
+    std::vector<TileOutput> m_outputs;
+    SimplifyStats m_stats;
+};
+
+bool Simplifier::run()
+{
+    for (float guard : kGuards) {
+        m_guard = guard;
+        for (Index v = 0; v < Index(m_mesh.nodes.size()); ++v)
+            m_mesh.keys[v] = m_mesh.nodes[v].degree > 0 ? 0.0f : kInfinity;
+        for (float limit = kFirstLimit; anything_left(); limit *= kSweepFactor)
+            if (!sweep(std::min(limit, std::numeric_limits<float>::max())))
+                return false;
+    }
+    return true;
+}
+
+bool Simplifier::sweep(float limit)
+{
+    for (int color = 0; color < 4; ++color) {
+        sweep_color(color, limit);
+        if (!report())
+            return false;
+    }
+    // What reached beyond its tile's zone, alone and in order.
+    TileOutput output;
+    TileWorker worker(m_mesh, Zone { 0, 0, ~0u, ~0u }, m_guard, output);
+    std::vector<Index> deferred;
+    deferred.swap(m_deferred);
+    worker.run(deferred, limit);
+    collect(output);
+    m_mesh.compact_if_sparse();
+    m_stats.peak_bytes
+        = std::max(m_stats.peak_bytes, m_mesh.bytes() + m_records.capacity() * sizeof(CollapseRecord));
+    return true;
+}
+
+void Simplifier::sweep_color(int color, float limit)
+{
+    std::vector<const Tile*> tiles;
+    for (const Tile& tile : m_mesh.tiles)
+        if (int(tile.x & 1) + 2 * int(tile.y & 1) == color)
+            tiles.push_back(&tile);
+    m_outputs.resize(std::max(m_outputs.size(), tiles.size()));
+    pimg::run(m_options.parallel, tiles.size(), [&](std::size_t i) {
+        TileWorker worker(m_mesh, m_mesh.zone(*tiles[i]), m_guard, m_outputs[i]);
+        for (float share : kSteps)
+            worker.run(*tiles[i], limit * share);
+    });
+    for (std::size_t i = 0; i < tiles.size(); ++i)
+        collect(m_outputs[i]);
+}
+
+void Simplifier::collect(TileOutput& output)
+{
+    m_records.insert(m_records.end(), output.records.begin(), output.records.end());
+    m_deferred.insert(m_deferred.end(), output.deferred.begin(), output.deferred.end());
+    m_mesh.add_dead(Index(output.records.size()));
+    m_stats.collapses += output.records.size();
+    m_stats.evaluations += output.evaluations;
+    m_stats.refused += output.refused;
+    output.clear();
+}
+
+bool Simplifier::anything_left() const
+{
+    return std::any_of(m_mesh.keys.begin(), m_mesh.keys.end(), [](float key) { return key < kInfinity; });
+}
+
+bool Simplifier::report() const
+{
+    return !m_options.progress || m_options.progress(1.0f - float(m_mesh.alive()) / float(m_total));
+}
+
+std::vector<BaseVertex> Simplifier::base() const
+{
+    std::vector<BaseVertex> base;
+    for (Index v = 0; v < Index(m_mesh.nodes.size()); ++v) {
+        const Node& node = m_mesh.nodes[v];
+        if (node.degree == 0)
+            continue;
+        BaseVertex b { node.name, node.p, node.z, m_mesh.rings[v], node.degree };
+        for (int j = 0; j < b.degree; ++j) {
+            Index& q = b.ring.v[std::size_t(j)];
+            q = q == kGhost ? kGhost : m_mesh.nodes[q].name;
+        }
+        base.push_back(b);
+    }
+    std::sort(base.begin(), base.end(), [](const BaseVertex& a, const BaseVertex& b) { return a.name < b.name; });
+    return base;
+}
+
+}  // namespace
+
+Status simplify(const Guide& guide, const SimplifyOptions& options, Hierarchy& hierarchy, Bands& bands,
+                SimplifyStats* stats)
+{
+    constexpr int kMaxSide = 1 << 20;
+    if (!guide.samples || guide.width < 1 || guide.height < 1)
+        return Status::failure("the picture is empty");
+    if (guide.width > kMaxSide || guide.height > kMaxSide
+        || std::uint64_t(guide.width) * std::uint64_t(guide.height) > (1ull << 31))
+        return Status::failure("the picture is larger than 2^20 pixels a side or 2^31 in all");
+
+    Hierarchy shape;
+    shape.width = guide.width;
+    shape.height = guide.height;
+    const std::vector<float> samples = to_mesh_pixels(shape, guide.samples);
+    std::vector<BaseVertex> base;
+    std::vector<CollapseRecord> records;
+    {
+        Simplifier simplifier(samples.data(), shape.mesh_width(), shape.mesh_height(), options);
+        if (!simplifier.run())
+            return Status::failure("building was stopped");
+        base = simplifier.base();
+        records = simplifier.take_records();
+        if (stats)
+            *stats = simplifier.stats();
+    }
+    return assemble(guide.width, guide.height, base, std::move(records), options.base_faces, hierarchy, bands);
+}
+
+}  // namespace pimg

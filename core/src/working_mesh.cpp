@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "working_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pimg {
+
+namespace {
+
+/// Mean number of living vertices under which four tiles are merged into one.
+constexpr Index kSmallTile = 1500;
+
+/// Every second bit of a Morton code.
+std::uint32_t morton_part(std::uint64_t code)
+{
+    std::uint32_t part = 0;
+    for (int bit = 0; bit < 32; ++bit)
+        part |= std::uint32_t((code >> (2 * bit)) & 1) << bit;
+    return part;
+}
+
+/// Whether quad (x, y)..(x + 1, y + 1) is cut from upper left to lower right.
+bool falling_diagonal(const float* samples, int width, int x, int y)
+{
+    const float* p = samples + std::size_t(y) * std::size_t(width) + std::size_t(x);
+    return std::fabs(p[0] - p[width + 1]) <= std::fabs(p[1] - p[width]);
+}
+
+}  // namespace
+
+WorkingMesh::WorkingMesh(const float* samples, int width, int height)
+{
+    const std::size_t n = std::size_t(width) * std::size_t(height);
+    nodes.resize(n);
+    rings.resize(n);
+    keys.assign(n, 0.0f);
+    m_alive = Index(n);
+    std::vector<Index> number_of(n);
+    number_vertices(width, height, number_of);
+    build_rings(samples, width, height, number_of);
+    add_up_fans();
+}
+
+void WorkingMesh::number_vertices(int width, int height, std::vector<Index>& number_of)
+{
+    const std::uint32_t across = std::uint32_t((width + kTile - 1) / kTile);
+    const std::uint32_t down = std::uint32_t((height + kTile - 1) / kTile);
+    std::uint32_t side = 1;
+    while (side < std::max(across, down))
+        side *= 2;
+    Index next = 0;
+    for (std::uint64_t code = 0; code < std::uint64_t(side) * side; ++code) {
+        const std::uint32_t tx = morton_part(code), ty = morton_part(code >> 1);
+        if (tx >= across || ty >= down)
+            continue;
+        const Index first = next;
+        const int x1 = std::min(width, int(tx + 1) * kTile), y1 = std::min(height, int(ty + 1) * kTile);
+        for (int y = int(ty) * kTile; y < y1; ++y)
+            for (int x = int(tx) * kTile; x < x1; ++x)
+                number_of[std::size_t(y) * std::size_t(width) + std::size_t(x)] = next++;
+        tiles.push_back({ first, next, tx, ty });
+    }
+}
+
+void WorkingMesh::build_rings(const float* samples, int width, int height, const std::vector<Index>& number_of)
+{
+    // The eight pixels around in ring order, the odd ones being diagonal.
+    constexpr int kStepX[8] = { 1, 1, 0, -1, -1, -1, 0, 1 };
+    constexpr int kStepY[8] = { 0, 1, 1, 1, 0, -1, -1, -1 };
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const std::size_t pixel = std::size_t(y) * std::size_t(width) + std::size_t(x);
+            Node& node = nodes[number_of[pixel]];
+            Ring& ring = rings[number_of[pixel]];
+            int degree = 0;
+            for (int k = 0; k < 8; ++k) {
+                const int qx = x + kStepX[k], qy = y + kStepY[k];
+                if (qx < 0 || qy < 0 || qx >= width || qy >= height) {
+                    // The outside shows once, however many steps point there.
+                    if (find(ring, degree, kGhost) < 0)
+                        ring.v[std::size_t(degree++)] = kGhost;
+                    continue;
+                }
+                const bool diagonal = k & 1;
+                if (diagonal
+                    && falling_diagonal(samples, width, std::min(x, qx), std::min(y, qy)) != (kStepX[k] == kStepY[k]))
+                    continue;
+                ring.v[std::size_t(degree++)] = number_of[std::size_t(qy) * std::size_t(width) + std::size_t(qx)];
+            }
+            node.degree = std::uint8_t(degree);
+            node.side = std::uint8_t((x == 0 || x == width - 1 ? kFixedX : kFree)
+                                     | (y == 0 || y == height - 1 ? kFixedY : kFree));
+            node.p = { x * kSubpixels, y * kSubpixels };
+            node.z = samples[pixel];
+            node.name = Index(pixel);
+            node.order = 0.0f;
+            node.home = { std::uint16_t(x / kBlock), std::uint16_t(y / kBlock) };
+        }
+}
+
+void WorkingMesh::add_up_fans()
+{
+    alignas(64) float dx[kLanes] = {}, dy[kLanes] = {}, dz[kLanes] = {}, real[kLanes] = {};
+    Normals normals;
+    for (Index v = 0; v < Index(nodes.size()); ++v) {
+        Node& node = nodes[v];
+        for (int j = 0; j < node.degree; ++j) {
+            const Index q = rings[v].v[std::size_t(j)];
+            real[j] = q == kGhost ? 0.0f : 1.0f;
+            const Node& other = q == kGhost ? node : nodes[q];
+            dx[j] = float(other.p.x - node.p.x) / float(kSubpixels);
+            dy[j] = float(other.p.y - node.p.y) / float(kSubpixels);
+            dz[j] = other.z - node.z;
+        }
+        fan_normals(node.degree, dx, dy, dz, real, normals);
+        node.sums = add_up(node.degree, normals);
+    }
+}
+
+Zone WorkingMesh::zone(const Tile& tile) const
+{
+    const std::uint32_t n = m_blocks_per_tile, half = n / 2;
+    const std::uint32_t x0 = tile.x * n, y0 = tile.y * n;
+    return { x0 < half ? 0 : x0 - half, y0 < half ? 0 : y0 - half, x0 + n + half, y0 + n + half };
+}
+
+std::size_t WorkingMesh::bytes() const
+{
+    return nodes.capacity() * sizeof(Node) + rings.capacity() * sizeof(Ring) + keys.capacity() * sizeof(float);
+}
+
+void WorkingMesh::compact_if_sparse()
+{
+    if (std::size_t(m_alive) * 2 > nodes.size())
+        return;
+    std::vector<Index> number_of(nodes.size(), kGhost);
+    Index next = 0;
+    for (Tile& tile : tiles) {
+        const Index first = next;
+        for (Index v = tile.first; v < tile.last; ++v)
+            if (nodes[v].degree > 0) {
+                number_of[v] = next;
+                nodes[next] = nodes[v];
+                rings[next] = rings[v];
+                keys[next] = keys[v];
+                ++next;
+            }
+        tile.first = first;
+        tile.last = next;
+    }
+    nodes.resize(next);
+    rings.resize(next);
+    keys.resize(next);
+    nodes.shrink_to_fit();
+    rings.shrink_to_fit();
+    keys.shrink_to_fit();
+    for (Index v = 0; v < next; ++v)
+        for (int j = 0; j < nodes[v].degree; ++j) {
+            Index& q = rings[v].v[std::size_t(j)];
+            q = q == kGhost ? kGhost : number_of[q];
+        }
+    while (tiles.size() > 1 && m_alive / Index(tiles.size()) < kSmallTile)
+        merge_tiles();
+}
+
+void WorkingMesh::merge_tiles()
+{
+    // Tiles are in Morton order: the four children of a coarser tile follow each other.
+    std::vector<Tile> merged;
+    for (const Tile& tile : tiles) {
+        const std::uint32_t x = tile.x / 2, y = tile.y / 2;
+        if (!merged.empty() && merged.back().x == x && merged.back().y == y)
+            merged.back().last = tile.last;
+        else
+            merged.push_back({ tile.first, tile.last, x, y });
+    }
+    tiles = std::move(merged);
+    m_blocks_per_tile *= 2;
+}
+
+}  // namespace pimg

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The mesh while it is being simplified: one cache line of vertex, one of ring, a key. Vertices are numbered tile by
+// tile (tiles in Morton order), so that a tile's vertices lie together in memory; survivors are
+// renumbered in the same order whenever half of them are gone, and four tiles then become one.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <pimg/ring.h>
+#include <pimg/simplify.h>
+
+#include "collapse_cost.h"
+
+namespace pimg {
+
+/// Block a vertex's home is in: units of half a finest tile. Fixed for life; says which tile owns it.
+struct Home {
+    std::uint16_t x = 0, y = 0;
+};
+
+struct alignas(64) Node {
+    FanSums sums;         ///< of its fan, origin at the vertex
+    float z;              ///< intensity
+    Point p;              ///< position
+    Index name;           ///< mesh pixel of the vertex whose number it keeps
+    float order;          ///< cost of its last collapse, made monotone along dependencies
+    Home home;
+    std::uint8_t degree;  ///< 0: merged into another
+    std::uint8_t side;    ///< Side
+};
+static_assert(sizeof(Node) == 64, "a vertex is one cache line");
+
+/// Vertices [first, last) belong to the tile at (x, y) of the current tile grid.
+struct Tile {
+    Index first, last;
+    std::uint32_t x, y;
+};
+
+/// Rectangle of blocks a tile may touch: itself and half of each tile around it. Tiles of one
+/// of the four colours never share a block, so they can be worked on at once.
+struct Zone {
+    std::uint32_t x0, y0, x1, y1;  // half open
+    bool contains(Home h) const { return h.x >= x0 && h.x < x1 && h.y >= y0 && h.y < y1; }
+};
+
+class WorkingMesh {
+public:
+    /// Side of a finest tile in pixels, and of a block.
+    static constexpr int kTile = 64, kBlock = kTile / 2;
+
+    std::vector<Node> nodes;
+    std::vector<Ring> rings;
+    std::vector<float> keys;  ///< cost at or below which a vertex is worth a look; infinite: not before its neighbourhood changes
+    std::vector<Tile> tiles;
+
+    /// One vertex per mesh pixel; each quad is cut along the diagonal with the smaller jump.
+    WorkingMesh(const float* samples, int width, int height);
+
+    Index alive() const { return m_alive; }
+    void add_dead(Index count) { m_alive -= count; }
+    Zone zone(const Tile& tile) const;
+    std::size_t bytes() const;
+
+    /// When half of the numbers are free: renumbers, and merges tiles that have become small.
+    void compact_if_sparse();
+
+    void prefetch(Index v) const
+    {
+        __builtin_prefetch(&nodes[v]);
+        __builtin_prefetch(&rings[v]);
+    }
+
+private:
+    void number_vertices(int width, int height, std::vector<Index>& number_of);
+    void build_rings(const float* samples, int width, int height, const std::vector<Index>& number_of);
+    void add_up_fans();
+    void merge_tiles();
+
+    Index m_alive = 0;
+    std::uint32_t m_blocks_per_tile = 2;
+};
+
+}  // namespace pimg
