@@ -177,11 +177,12 @@ public:
     /// Whether the whole hierarchy is in the file.
     bool has_hierarchy() const;
 
-    /// The hierarchy (`full` profile) and, from the same pass, the bands of any channels on it: each holds one finite value
-    /// per mesh pixel (to_mesh_pixels()), usually made from what read() returned. Equal to the hierarchy
-    /// that was written but for the order of the splits inside a batch and their costs, which are those of the batch.
-    Status read_hierarchy(const std::vector<const float*>& channels, Hierarchy& hierarchy,
-                          std::vector<Bands>& bands) const;
+    /// The hierarchy (`full` profile) and, from the same pass, the bands of any channels on it. `samples` are those read()
+    /// gave; each of `channels` holds one finite value per mesh pixel (to_mesh_pixels()), usually made from them.
+    /// Equal to the hierarchy that was written but for the order of the splits inside a batch (a few percent of the
+    /// vertices of that level), and costs, which are those of the batch.
+    Status read_hierarchy(const std::vector<ConstPlane>& samples, const std::vector<const float*>& channels,
+                          Hierarchy& hierarchy, std::vector<Bands>& bands) const;
 
 private:
     struct File;
