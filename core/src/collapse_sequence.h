@@ -19,8 +19,10 @@ struct CollapseChunks {
     std::vector<Bytes> chunks;
 };
 
+/// Positions are moved onto multiples of 2^lattice_shift lattice units; 0 keeps them.
 Status write_collapse_sequence(const Hierarchy& hierarchy, const PictureDesc& desc,
-                               const std::vector<ConstPlane>& samples, CollapseChunks& chunks);
+                               const std::vector<ConstPlane>& samples, std::uint32_t lattice_shift,
+                               CollapseChunks& chunks);
 
 /// The integer picture, one value per mesh pixel, that predicts the diagonals of the grid's quads.
 std::vector<std::int32_t> diagonal_guide(const PictureDesc& desc, const std::vector<ConstPlane>& samples);

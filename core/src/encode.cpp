@@ -29,6 +29,7 @@ private:
     bool progress(float done) const { return !m_options.progress || m_options.progress(done); }
     Transform choose_transform() const;
     Status build_hierarchy();
+    std::uint32_t lattice_shift() const;
     Status make_mesh_layer(MeshLayerChunks& chunks);
     Bytes write_tile(std::uint32_t column, std::uint32_t row, const MeshLayerChunks& chunks, const TriangleGrid& grid) const;
     void make_tiles(const MeshLayerChunks& chunks, std::vector<Bytes>& tiles) const;
@@ -118,6 +119,15 @@ Status Encoder::build_hierarchy()
         = simplify({ int(m_desc.data.width), int(m_desc.data.height), guide.data() }, options, m_own, bands);
     m_hierarchy = &m_own;
     return status;
+}
+
+/// A hierarchy is stored as it is, but for a single 8-bit channel, where its positions would take more than the picture:
+/// these go to 1/16 pixel.
+std::uint32_t Encoder::lattice_shift() const
+{
+    if (m_options.lattice_shift >= 0)
+        return std::uint32_t(std::min(m_options.lattice_shift, 6));
+    return m_desc.channels.size() == 1 && m_desc.channels[0].type == SampleType::uint8 ? 2 : 0;
 }
 
 Status Encoder::make_mesh_layer(MeshLayerChunks& chunks)
@@ -225,7 +235,7 @@ Status Encoder::run(Bytes& file, EncodeStats& stats)
         return status;
     CollapseChunks collapses;
     if (m_options.profile == Profile::full)
-        status = write_collapse_sequence(*m_hierarchy, m_desc, m_samples, collapses);
+        status = write_collapse_sequence(*m_hierarchy, m_desc, m_samples, lattice_shift(), collapses);
     if (!status)
         return status;
     m_transform = choose_transform();
