@@ -151,8 +151,7 @@ bool SequenceReader::read_collapse(Index t)
 
 bool SequenceReader::read_batch(ByteReader& heads)
 {
-    const std::uint64_t head = heads.varint(), count = head >> 1;
-    const bool backwards = head & 1;
+    const std::uint64_t count = heads.varint();
     const std::uint32_t bits = heads.u32();
     float cost;
     std::memcpy(&cost, &bits, 4);
@@ -165,7 +164,7 @@ bool SequenceReader::read_batch(ByteReader& heads)
     std::size_t at = 0;
     for (std::uint64_t i = 0; i < count; ++i, ++at) {
         at += m_gap.next(density);
-        if (at >= m_alive.size() || !read_collapse(m_alive[backwards ? m_alive.size() - 1 - at : at]))
+        if (at >= m_alive.size() || !read_collapse(m_alive[at]))
             return false;
     }
     return true;
