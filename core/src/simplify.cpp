@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The driver of the simplification. Locality is what it costs, not arithmetic: so there is no global
 // queue. Tiles are visited in order, each is collapsed up to a cost limit while it sits in the cache, and the limit
-// rises from sweep to sweep. Inside a tile the limit rises in finer steps. Keys are lazy: a vertex is
+// rises from sweep to sweep; inside a tile it rises in finer steps. Keys are lazy: a vertex is
 // evaluated again only when its old cost comes up. Why this loses no quality: docs/internals.md.
 #include <pimg/simplify.h>
 
@@ -19,8 +19,6 @@ namespace {
 
 constexpr float kFirstLimit = 1e-3f;  ///< about the cost floor of a pixel-sized edge
 constexpr float kSweepFactor = 4.0f;  ///< between the limits of successive sweeps
-/// Shares of a sweep's limit through which a tile approaches it: powers of 4^(1/6).
-constexpr float kSteps[] = { 0.31498026f, 0.39685026f, 0.5f, 0.62996052f, 0.79370052f, 1.0f };
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// Shape a triangle must keep: twice its area over its longest edge squared. The second
@@ -33,6 +31,8 @@ public:
         : m_mesh(samples, width, height), m_options(options), m_total(m_mesh.alive())
     {
         m_stats.peak_bytes = m_mesh.bytes();
+        pimg::run(options.parallel, m_mesh.tiles.size(),
+                  [&](std::size_t i) { add_up_fans(m_mesh, m_mesh.tiles[i].first, m_mesh.tiles[i].last); });
     }
 
     /// False when progress asked to stop.
@@ -81,10 +81,9 @@ bool Simplifier::sweep(float limit)
     }
     // What reached beyond its tile's zone, alone and in order.
     TileOutput output;
-    TileWorker worker(m_mesh, Zone { 0, 0, ~0u, ~0u }, m_guard, output);
     std::vector<Index> deferred;
     deferred.swap(m_deferred);
-    worker.run(deferred, limit);
+    collapse_listed(m_mesh, deferred, { Zone { 0, 0, ~0u, ~0u }, limit, m_guard }, output);
     collect(output);
     m_mesh.compact_if_sparse();
     m_stats.peak_bytes
@@ -100,9 +99,7 @@ void Simplifier::sweep_color(int color, float limit)
             tiles.push_back(&tile);
     m_outputs.resize(std::max(m_outputs.size(), tiles.size()));
     pimg::run(m_options.parallel, tiles.size(), [&](std::size_t i) {
-        TileWorker worker(m_mesh, m_mesh.zone(*tiles[i]), m_guard, m_outputs[i]);
-        for (float share : kSteps)
-            worker.run(*tiles[i], limit * share);
+        collapse_tile(m_mesh, *tiles[i], { m_mesh.zone(*tiles[i]), limit, m_guard }, m_outputs[i]);
     });
     for (std::size_t i = 0; i < tiles.size(); ++i)
         collect(m_outputs[i]);

@@ -39,7 +39,6 @@ WorkingMesh::WorkingMesh(const float* samples, int width, int height)
     std::vector<Index> number_of(n);
     number_vertices(width, height, number_of);
     build_rings(samples, width, height, number_of);
-    add_up_fans();
 }
 
 void WorkingMesh::number_vertices(int width, int height, std::vector<Index>& number_of)
@@ -97,25 +96,6 @@ void WorkingMesh::build_rings(const float* samples, int width, int height, const
             node.order = 0.0f;
             node.home = { std::uint16_t(x / kBlock), std::uint16_t(y / kBlock) };
         }
-}
-
-void WorkingMesh::add_up_fans()
-{
-    alignas(64) float dx[kLanes] = {}, dy[kLanes] = {}, dz[kLanes] = {}, real[kLanes] = {};
-    Normals normals;
-    for (Index v = 0; v < Index(nodes.size()); ++v) {
-        Node& node = nodes[v];
-        for (int j = 0; j < node.degree; ++j) {
-            const Index q = rings[v].v[std::size_t(j)];
-            real[j] = q == kGhost ? 0.0f : 1.0f;
-            const Node& other = q == kGhost ? node : nodes[q];
-            dx[j] = float(other.p.x - node.p.x) / float(kSubpixels);
-            dy[j] = float(other.p.y - node.p.y) / float(kSubpixels);
-            dz[j] = other.z - node.z;
-        }
-        fan_normals(node.degree, dx, dy, dz, real, normals);
-        node.sums = add_up(node.degree, normals);
-    }
 }
 
 Zone WorkingMesh::zone(const Tile& tile) const

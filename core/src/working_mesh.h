@@ -54,7 +54,8 @@ public:
     std::vector<float> keys;  ///< cost at or below which a vertex is worth a look; infinite: not before its neighbourhood changes
     std::vector<Tile> tiles;
 
-    /// One vertex per mesh pixel; each quad is cut along the diagonal with the smaller jump.
+    /// One vertex per mesh pixel; each quad is cut along the diagonal with the smaller jump. Sums are left to
+    /// add_up_fans().
     WorkingMesh(const float* samples, int width, int height);
 
     Index alive() const { return m_alive; }
@@ -74,7 +75,6 @@ public:
 private:
     void number_vertices(int width, int height, std::vector<Index>& number_of);
     void build_rings(const float* samples, int width, int height, const std::vector<Index>& number_of);
-    void add_up_fans();
     void merge_tiles();
 
     Index m_alive = 0;

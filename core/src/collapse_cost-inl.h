@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The arithmetic of collapse_cost.h, included once per instruction set. Every target gives the same bits: no fused
+// multiply-add, no reordered sum, and lanes never mix but in sum_lanes(), whose tree is fixed.
+#if defined(PIMG_COLLAPSE_COST_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef PIMG_COLLAPSE_COST_INL_H
+#undef PIMG_COLLAPSE_COST_INL_H
+#else
+#define PIMG_COLLAPSE_COST_INL_H
+#endif
+
+#include <algorithm>
+#include <limits>
+
+#include <hwy/highway.h>
+
+#include "collapse_cost.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pimg {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Lanes = hn::CappedTag<float, 8>;
+using Four = hn::FixedTag<float, 4>;
+using V4 = hn::Vec<Four>;
+
+/// Columns of four rows.
+HWY_INLINE void transpose(V4& a, V4& b, V4& c, V4& d)
+{
+    const Four f;
+    const V4 ab_low = hn::InterleaveLower(f, a, b), cd_low = hn::InterleaveLower(f, c, d);
+    const V4 ab_high = hn::InterleaveUpper(f, a, b), cd_high = hn::InterleaveUpper(f, c, d);
+    a = hn::ConcatLowerLower(f, cd_low, ab_low);
+    b = hn::ConcatUpperUpper(f, cd_low, ab_low);
+    c = hn::ConcatLowerLower(f, cd_high, ab_high);
+    d = hn::ConcatUpperUpper(f, cd_high, ab_high);
+}
+
+/// Sums of n n^T and n over all lanes. Lanes are added as ((0 + 8) + (4 + 12)) and so on, then four by four.
+HWY_INLINE FanSums add_up(const Normals& n, int lanes)
+{
+    const Four f;
+    V4 s[9];
+    for (int k = 0; k < 9; ++k)
+        s[k] = hn::Zero(f);
+    V4 half[9];
+    for (int block = 0; block < 8; block += 4) {
+        for (int j = block; j < lanes; j += 8) {
+            const V4 x = hn::Load(f, n.x + j), y = hn::Load(f, n.y + j), z = hn::Load(f, n.z + j);
+            const V4 p[9] = { x * x, x * y, y * y, x * z, y * z, z * z, x, y, z };
+            for (int k = 0; k < 9; ++k)
+                half[k] = j == block ? p[k] : half[k] + p[k];
+        }
+        for (int k = 0; k < 9; ++k)
+            s[k] = block == 0 ? half[k] : s[k] + half[k];
+    }
+    transpose(s[0], s[1], s[2], s[3]);
+    transpose(s[4], s[5], s[6], s[7]);
+    V4 z0 = s[8], z1 = s[8], z2 = s[8], z3 = s[8];
+    transpose(z0, z1, z2, z3);
+    HWY_ALIGN float out[12];
+    hn::Store((s[0] + s[2]) + (s[1] + s[3]), f, out);
+    hn::Store((s[4] + s[6]) + (s[5] + s[7]), f, out + 4);
+    hn::Store((z0 + z2) + (z1 + z3), f, out + 8);
+    return { out[0], out[1], out[2], out[3], out[4], out[5], out[6], out[7], out[8] };
+}
+
+/// Repeats the first corner after the last and clears what follows.
+HWY_INLINE void close(Corners& c, int degree, int lanes)
+{
+    for (int k = degree; k <= lanes; ++k)
+        c.x[k] = c.y[k] = c.z[k] = c.real[k] = 0.0f;
+    c.x[degree] = c.x[0];
+    c.y[degree] = c.y[0];
+    c.z[degree] = c.z[0];
+    c.real[degree] = c.real[0];
+}
+
+/// 1 for lanes that hold a triangle (corner j, corner j + 1), else 0.
+HWY_INLINE hn::Vec<Lanes> whole(const Corners& c, int degree, int j)
+{
+    const Lanes d;
+    const auto inside = hn::IfThenElseZero(hn::Lt(hn::Iota(d, float(j)), hn::Set(d, float(degree))), hn::Set(d, 1.0f));
+    return inside * hn::Load(d, c.real + j) * hn::LoadU(d, c.real + j + 1);
+}
+
+struct Vec3 {
+    hn::Vec<Lanes> x, y, z;
+};
+
+HWY_INLINE Vec3 corner(const Corners& c, int j)
+{
+    const Lanes d;
+    return { hn::LoadU(d, c.x + j), hn::LoadU(d, c.y + j), hn::LoadU(d, c.z + j) };
+}
+
+HWY_INLINE Vec3 operator-(Vec3 a, Vec3 b)
+{
+    return { a.x - b.x, a.y - b.y, a.z - b.z };
+}
+
+HWY_INLINE Vec3 cross(Vec3 a, Vec3 b, hn::Vec<Lanes> mask)
+{
+    return { mask * (a.y * b.z - a.z * b.y), mask * (a.z * b.x - a.x * b.z), mask * (a.x * b.y - a.y * b.x) };
+}
+
+HWY_INLINE void store(Vec3 v, Normals& n, int j)
+{
+    const Lanes d;
+    hn::Store(v.x, d, n.x + j);
+    hn::Store(v.y, d, n.y + j);
+    hn::Store(v.z, d, n.z + j);
+}
+
+/// Normals of the fan around the origin.
+HWY_INLINE void fan_normals(const Corners& c, int degree, int lanes, Normals& n)
+{
+    const Lanes d;
+    for (int j = 0; j < lanes; j += int(hn::Lanes(d)))
+        store(cross(corner(c, j), corner(c, j + 1), whole(c, degree, j)), n, j);
+    n.before_x = n.x[degree - 1];
+    n.before_y = n.y[degree - 1];
+    n.before_z = n.z[degree - 1];
+}
+
+/// The quadratic form of eight edges: the sum of squared volumes at u is u H u - 2 b u + k.
+struct Quadric {
+    hn::Vec<Lanes> xx, xy, yy, xz, yz, zz, bx, by, bz, k;
+    hn::Vec<Lanes> alpha, beta, offset, area;  // volume preservation: z = offset - alpha x - beta y
+};
+
+HWY_INLINE Quadric edge_quadrics(const EdgeFan& f, int j)
+{
+    const Lanes d;
+    const Vec3 u = corner(f.corners, j);
+    const auto px = hn::LoadU(d, f.normals.x + j - 1), py = hn::LoadU(d, f.normals.y + j - 1);
+    const auto pz = hn::LoadU(d, f.normals.z + j - 1);
+    const auto qx = hn::Load(d, f.normals.x + j), qy = hn::Load(d, f.normals.y + j), qz = hn::Load(d, f.normals.z + j);
+    const auto axx = hn::Load(d, f.a[0] + j), axy = hn::Load(d, f.a[1] + j), ayy = hn::Load(d, f.a[2] + j);
+    const auto axz = hn::Load(d, f.a[3] + j), ayz = hn::Load(d, f.a[4] + j), azz = hn::Load(d, f.a[5] + j);
+    const auto nx = hn::Load(d, f.n[0] + j), ny = hn::Load(d, f.n[1] + j), nz = hn::Load(d, f.n[2] + j);
+    Quadric h;
+    h.bx = axx * u.x + axy * u.y + axz * u.z;
+    h.by = axy * u.x + ayy * u.y + ayz * u.z;
+    h.bz = axz * u.x + ayz * u.y + azz * u.z;
+    h.k = h.bx * u.x + h.by * u.y + h.bz * u.z;
+    h.xx = hn::Set(d, f.sums.xx) + axx - px * px - qx * qx;
+    h.xy = hn::Set(d, f.sums.xy) + axy - px * py - qx * qy;
+    h.yy = hn::Set(d, f.sums.yy) + ayy - py * py - qy * qy;
+    h.xz = hn::Set(d, f.sums.xz) + axz - px * pz - qx * qz;
+    h.yz = hn::Set(d, f.sums.yz) + ayz - py * pz - qy * qz;
+    h.zz = hn::Set(d, f.sums.zz) + azz - pz * pz - qz * qz;
+    h.area = hn::Set(d, f.sums.z) + nz - pz - qz;
+    const auto inverse = hn::Load(d, f.corners.real + j) / hn::Max(h.area, hn::Set(d, 1e-20f));
+    h.alpha = (hn::Set(d, f.sums.x) + nx - px - qx) * inverse;
+    h.beta = (hn::Set(d, f.sums.y) + ny - py - qy) * inverse;
+    h.offset = (nx * u.x + ny * u.y + nz * u.z) * inverse;
+    return h;
+}
+
+/// Cost at (x, y): the squared volumes and the floor.
+HWY_INLINE hn::Vec<Lanes> cost_at(const Quadric& h, Vec3 u, hn::Vec<Lanes> x, hn::Vec<Lanes> y)
+{
+    const Lanes d;
+    const auto two = hn::Set(d, 2.0f);
+    const auto z = h.offset - h.alpha * x - h.beta * y;
+    const auto volume = x * (h.xx * x + two * (h.xy * y + h.xz * z - h.bx)) + y * (h.yy * y + two * (h.yz * z - h.by))
+                        + z * (h.zz * z - two * h.bz) + h.k;
+    return hn::Max(volume, hn::Zero(d)) + hn::Set(d, kCostFloor) * h.area * (u.x * u.x + u.y * u.y);
+}
+
+/// Optimum and cost of lanes j ... of the fan.
+HWY_INLINE void evaluate_lanes(EdgeFan& f, int j)
+{
+    const Lanes d;
+    const Vec3 u = corner(f.corners, j);
+    const Quadric h = edge_quadrics(f, j);
+    const auto half = hn::Set(d, 0.5f), two = hn::Set(d, 2.0f), tiny = hn::Set(d, 1e-30f);
+
+    // The 2 x 2 system left for (x, y), pulled a little to the midpoint.
+    const auto gxy = h.xy - h.alpha * h.yz - h.beta * h.xz + h.alpha * h.beta * h.zz;
+    auto gxx = h.xx - two * h.alpha * h.xz + h.alpha * h.alpha * h.zz;
+    auto gyy = h.yy - two * h.beta * h.yz + h.beta * h.beta * h.zz;
+    const auto pull = hn::Set(d, kPullOfTrace) * (gxx + gyy) + hn::Set(d, kPullOfArea) * h.area * h.area;
+    const auto rx = h.bx - h.alpha * h.bz - h.offset * (h.xz - h.alpha * h.zz) + pull * half * u.x;
+    const auto ry = h.by - h.beta * h.bz - h.offset * (h.yz - h.beta * h.zz) + pull * half * u.y;
+    gxx = gxx + pull;
+    gyy = gyy + pull;
+    const auto det = hn::Max(gxx * gyy - gxy * gxy, tiny);
+    auto x = (rx * gyy - ry * gxy) / det;
+    auto y = (ry * gxx - rx * gxy) / det;
+
+    if (f.on_border) {
+        // Ends on a side keep to it; the other coordinate stays free.
+        const auto other_x = hn::Load(d, f.fixed_x + j), other_y = hn::Load(d, f.fixed_y + j);
+        const auto own_x = hn::Set(d, f.side & kFixedX ? 1.0f : 0.0f), own_y = hn::Set(d, f.side & kFixedY ? 1.0f : 0.0f);
+        const auto one = hn::Set(d, 1.0f);
+        const auto side_x = other_x * (one - own_x) * u.x, side_y = other_y * (one - own_y) * u.y;
+        const auto held_x = hn::Gt(hn::Max(own_x, other_x), hn::Zero(d));
+        const auto held_y = hn::Gt(hn::Max(own_y, other_y), hn::Zero(d));
+        const auto slide_x = (rx - gxy * side_y) / hn::Max(gxx, tiny);
+        const auto slide_y = (ry - gxy * side_x) / hn::Max(gyy, tiny);
+        const auto free_x = x;
+        x = hn::IfThenElse(held_x, side_x, hn::IfThenElse(held_y, slide_x, free_x));
+        y = hn::IfThenElse(held_y, side_y, hn::IfThenElse(held_x, slide_y, y));
+    }
+    const auto cost = cost_at(h, u, x, y);
+    const auto neighbour = hn::Gt(hn::Load(d, f.corners.real + j), hn::Zero(d));
+    hn::Store(hn::IfThenElse(neighbour, cost, hn::Set(d, std::numeric_limits<float>::infinity())), d, f.cost + j);
+    hn::Store(x, d, f.x + j);
+    hn::Store(y, d, f.y + j);
+    hn::Store(h.alpha, d, f.alpha + j);
+    hn::Store(h.beta, d, f.beta + j);
+    hn::Store(h.offset, d, f.offset + j);
+}
+
+/// Fills sums, normals, and for every edge optimum and cost.
+HWY_INLINE void evaluate_edges(EdgeFan& f)
+{
+    fan_normals(f.corners, f.degree, f.lanes, f.normals);
+    f.sums = add_up(f.normals, f.lanes);
+    for (int j = 0; j < f.lanes; j += int(hn::Lanes(Lanes())))
+        evaluate_lanes(f, j);
+}
+
+/// Cost of edge j with its optimum moved to (x, y).
+HWY_INLINE float edge_cost_at(const EdgeFan& f, int j, float x, float y)
+{
+    const Lanes d;
+    const int first = j - j % int(hn::Lanes(d));
+    HWY_ALIGN float cost[8];
+    hn::Store(cost_at(edge_quadrics(f, first), corner(f.corners, first), hn::Set(d, x), hn::Set(d, y)), d, cost);
+    return cost[j - first];
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace pimg
+HWY_AFTER_NAMESPACE();
+
+#endif
