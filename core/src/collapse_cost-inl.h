@@ -36,40 +36,54 @@ HWY_INLINE void transpose(V4& a, V4& b, V4& c, V4& d)
     d = hn::ConcatUpperUpper(f, cd_high, ab_high);
 }
 
-/// Sums of n n^T and n over all lanes. Lanes are added as ((0 + 8) + (4 + 12)) and so on, then four by four.
+/// The nine products of four normals.
+HWY_INLINE void products(const Normals& n, int j, V4 (&p)[9])
+{
+    const Four f;
+    const V4 x = hn::Load(f, n.x + j), y = hn::Load(f, n.y + j), z = hn::Load(f, n.z + j);
+    p[0] = x * x;
+    p[1] = x * y;
+    p[2] = y * y;
+    p[3] = x * z;
+    p[4] = y * z;
+    p[5] = z * z;
+    p[6] = x;
+    p[7] = y;
+    p[8] = z;
+}
+
+/// Sums of n n^T and n over all lanes: lane j + 8 is added to lane j, then 4 to 0, 2 to 0 and 1 to 0.
 HWY_INLINE FanSums add_up(const Normals& n, int lanes)
 {
     const Four f;
-    V4 s[9];
-    for (int k = 0; k < 9; ++k)
-        s[k] = hn::Zero(f);
-    V4 half[9];
-    for (int block = 0; block < 8; block += 4) {
-        for (int j = block; j < lanes; j += 8) {
-            const V4 x = hn::Load(f, n.x + j), y = hn::Load(f, n.y + j), z = hn::Load(f, n.z + j);
-            const V4 p[9] = { x * x, x * y, y * y, x * z, y * z, z * z, x, y, z };
-            for (int k = 0; k < 9; ++k)
-                half[k] = j == block ? p[k] : half[k] + p[k];
+    V4 s[9], t[9];
+    products(n, 0, s);
+    products(n, 4, t);
+    if (lanes > 8) {
+        V4 u[9], v[9];
+        products(n, 8, u);
+        products(n, 12, v);
+        for (int k = 0; k < 9; ++k) {
+            s[k] = s[k] + u[k];
+            t[k] = t[k] + v[k];
         }
-        for (int k = 0; k < 9; ++k)
-            s[k] = block == 0 ? half[k] : s[k] + half[k];
     }
+    for (int k = 0; k < 9; ++k)
+        s[k] = s[k] + t[k];
     transpose(s[0], s[1], s[2], s[3]);
     transpose(s[4], s[5], s[6], s[7]);
-    V4 z0 = s[8], z1 = s[8], z2 = s[8], z3 = s[8];
-    transpose(z0, z1, z2, z3);
-    HWY_ALIGN float out[12];
-    hn::Store((s[0] + s[2]) + (s[1] + s[3]), f, out);
-    hn::Store((s[4] + s[6]) + (s[5] + s[7]), f, out + 4);
-    hn::Store((z0 + z2) + (z1 + z3), f, out + 8);
-    return { out[0], out[1], out[2], out[3], out[4], out[5], out[6], out[7], out[8] };
+    const V4 z = s[8] + hn::Shuffle1032(s[8]);
+    FanSums sums;
+    hn::StoreU((s[0] + s[2]) + (s[1] + s[3]), f, &sums.xx);
+    hn::StoreU((s[4] + s[6]) + (s[5] + s[7]), f, &sums.yz);
+    sums.z = hn::GetLane(z) + hn::GetLane(hn::Shuffle2301(z));
+    return sums;
 }
 
-/// Repeats the first corner after the last and clears what follows.
+/// Repeats the first corner after the last; the entries past it must be zero up to `lanes`.
 HWY_INLINE void close(Corners& c, int degree, int lanes)
 {
-    for (int k = degree; k <= lanes; ++k)
-        c.x[k] = c.y[k] = c.z[k] = c.real[k] = 0.0f;
+    c.x[lanes] = c.y[lanes] = c.z[lanes] = c.real[lanes] = 0.0f;
     c.x[degree] = c.x[0];
     c.y[degree] = c.y[0];
     c.z[degree] = c.z[0];

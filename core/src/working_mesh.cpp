@@ -101,8 +101,8 @@ void WorkingMesh::build_rings(const float* samples, int width, int height, const
 Zone WorkingMesh::zone(const Tile& tile) const
 {
     const std::uint32_t n = m_blocks_per_tile, half = n / 2;
-    const std::uint32_t x0 = tile.x * n, y0 = tile.y * n;
-    return { x0 < half ? 0 : x0 - half, y0 < half ? 0 : y0 - half, x0 + n + half, y0 + n + half };
+    // At the left and upper side the difference wraps round, and so it does in contains().
+    return { tile.x * n - half, tile.y * n - half, n + 2 * half, n + 2 * half };
 }
 
 std::size_t WorkingMesh::bytes() const

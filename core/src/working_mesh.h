@@ -40,8 +40,8 @@ struct Tile {
 /// Rectangle of blocks a tile may touch: itself and half of each tile around it. Tiles of one
 /// of the four colours never share a block, so they can be worked on at once.
 struct Zone {
-    std::uint32_t x0, y0, x1, y1;  // half open
-    bool contains(Home h) const { return h.x >= x0 && h.x < x1 && h.y >= y0 && h.y < y1; }
+    std::uint32_t x0, y0, width, height;
+    bool contains(Home h) const { return h.x - x0 < width && h.y - y0 < height; }
 };
 
 class WorkingMesh {
