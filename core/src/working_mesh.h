@@ -53,10 +53,15 @@ public:
     std::vector<Ring> rings;
     std::vector<float> keys;  ///< cost at or below which a vertex is worth a look; infinite: not before its neighbourhood changes
     std::vector<Tile> tiles;
+    int more_channels = 0;          ///< guide channels besides the first
+    std::vector<ChannelSums> more;  ///< of vertex v: [v * more_channels, (v + 1) * more_channels)
+    std::vector<float> weights;     ///< of all channels
 
     /// One vertex per mesh pixel; each quad is cut along the diagonal with the smaller jump. Sums are left to
     /// add_up_fans().
-    WorkingMesh(const float* samples, int width, int height);
+    explicit WorkingMesh(const Guide& guide);
+
+    ChannelSums* more_of(Index v) { return more.data() + std::size_t(v) * std::size_t(more_channels); }
 
     Index alive() const { return m_alive; }
     void add_dead(Index count) { m_alive -= count; }
@@ -74,7 +79,7 @@ public:
 
 private:
     void number_vertices(int width, int height, std::vector<Index>& number_of);
-    void build_rings(const float* samples, int width, int height, const std::vector<Index>& number_of);
+    void build_rings(const Guide& guide, const std::vector<Index>& number_of);
     void merge_tiles();
 
     Index m_alive = 0;
