@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the reader and the writer share: OpenImageIO's words for a picture and the codec's, and the reader and writer
+// themselves for programs that link them in.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <OpenImageIO/imageio.h>
+
+#include <pimg/codec.h>
+#include <pimg/options.h>
+
+namespace pimg {
+namespace io {
+
+/// How a file is written: keys of `pimg:key` attributes, and of pimgtool's -o.
+struct WriteOptions {
+    std::string profile = "compact";
+    float vertices = 0.015f;
+    int effort = 1;
+    int tile = 256;
+};
+
+/// The type samples of an OpenImageIO type are stored as: the same where the format has it, else float.
+OIIO::TypeDesc stored_type(OIIO::TypeDesc type);
+OIIO::TypeDesc type_desc(SampleType type);
+
+/// From the header of a picture to be written, whose types are stored types, and back. Metadata the writer or reader makes
+/// itself, hints among it, is left out on both ways.
+PictureDesc to_desc(const OIIO::ImageSpec& spec);
+OIIO::ImageSpec to_spec(const PictureDesc& desc);
+
+/// Spellings of a number or word a hint may have: 500, 500.0f and "500" are the same.
+std::string hint_text(const OIIO::ParamValue& hint);
+
+/// A writer that stores this hierarchy of the picture instead of building one; nullptr: an ordinary one.
+std::unique_ptr<OIIO::ImageOutput> make_output(const Hierarchy* hierarchy);
+std::unique_ptr<OIIO::ImageInput> make_input();
+
+}  // namespace io
+
+template<> const std::vector<Option<io::WriteOptions>>& option_table<io::WriteOptions>();
+
+}  // namespace pimg
