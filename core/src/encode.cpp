@@ -114,9 +114,9 @@ Status Encoder::build_hierarchy()
     options.base_faces = Index(std::clamp<std::size_t>(m_desc.pixels() / 512, 2, 128));
     if (m_options.progress)
         options.progress = [&](float done) { return m_options.progress(0.5f * done); };
-    Bands bands;
-    const Status status
-        = simplify({ int(m_desc.data.width), int(m_desc.data.height), guide.data() }, options, m_own, bands);
+    std::vector<Bands> bands;
+    const Status status = simplify({ int(m_desc.data.width), int(m_desc.data.height), { { guide.data(), 1.0f } } },
+                                   options, m_own, bands);
     m_hierarchy = &m_own;
     return status;
 }
