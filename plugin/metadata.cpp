@@ -260,10 +260,10 @@ template<> const std::vector<Option<io::WriteOptions>>& option_table<io::WriteOp
 {
     using W = io::WriteOptions;
     static const std::vector<Option<W>> table = {
-        { &W::profile, { "profile", 0, 0, "", "compact|full", "full keeps the hierarchy, so that filters start at once" } },
-        { &W::vertices, { "vertices", 0, 0.3, "of the pixels", "", "size of the mesh layer, the preview" } },
-        { &W::effort, { "effort", 0, 2, "", "", "0 writes faster, 2 smaller" } },
-        { &W::tile, { "tile", 16, 1024, "pixels", "", "side of the tiles the exact samples are coded in" } },
+        option<W, &W::profile>({ "profile", 0, 0, "", "compact|full", "full keeps the hierarchy, so that filters start at once" }),
+        option<W, &W::vertices>({ "vertices", 0, 0.3, "of the pixels", "", "size of the mesh layer, the preview" }),
+        option<W, &W::effort>({ "effort", 0, 2, "", "", "0 writes faster, 2 smaller" }),
+        option<W, &W::tile>({ "tile", 16, 1024, "pixels", "", "side of the tiles the exact samples are coded in" }),
     };
     return table;
 }

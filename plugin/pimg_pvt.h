@@ -6,10 +6,13 @@
 #include <memory>
 #include <string>
 
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imageio.h>
 
 #include <pimg/codec.h>
 #include <pimg/options.h>
+#include <pimg/progressive_image.h>
 
 namespace pimg {
 namespace io {
@@ -37,6 +40,12 @@ std::string hint_text(const OIIO::ParamValue& hint);
 /// A writer that stores this hierarchy of the picture instead of building one; nullptr: an ordinary one.
 std::unique_ptr<OIIO::ImageOutput> make_output(const Hierarchy* hierarchy);
 std::unique_ptr<OIIO::ImageInput> make_input();
+
+/// Opens a file within OpenImageIO's limits:channels and limits:imagesize_MB. The proxy must outlive the decoder.
+Status open_decoder(OIIO::Filesystem::IOProxy* proxy, Decoder& decoder);
+
+/// The hierarchy in a file, for ProgressiveImage::adopt(). `pixels` is the picture the decoder gives; both must outlive the result.
+ProgressiveImage::StoredHierarchy stored_hierarchy(const Decoder& decoder, const OIIO::ImageBuf& pixels);
 
 }  // namespace io
 

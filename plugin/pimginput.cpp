@@ -14,7 +14,8 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 
-#include "parallel.h"
+#include <pimg/threads.h>
+
 #include "pimg_pvt.h"
 #include "read_request.h"
 
@@ -32,27 +33,6 @@ namespace Filesystem = OIIO::Filesystem;
 
 constexpr int kMipTile = 64;
 constexpr int kThumbnailSide = 256;
-
-/// The bytes behind an IOProxy, which the reader keeps alive.
-class ProxySource final : public Source {
-public:
-    explicit ProxySource(Filesystem::IOProxy* proxy) : m_proxy(proxy), m_size(proxy->size()) {}
-    std::uint64_t size() const override { return m_size; }
-    bool read(std::uint64_t offset, std::size_t count, void* to) const override
-    {
-        for (auto* bytes = static_cast<char*>(to); count > 0;) {
-            const std::size_t n = m_proxy->pread(bytes, count, std::int64_t(offset));
-            if (n == 0 || n > count)
-                return false;
-            bytes += n, offset += n, count -= n;
-        }
-        return true;
-    }
-
-private:
-    Filesystem::IOProxy* m_proxy;
-    std::uint64_t m_size;
-};
 
 /// A part of a level: pixels [x0, x1) x [y0, y1) from its upper left corner, channels [c0, c1), and where they go, as
 /// packed native samples.
@@ -173,16 +153,6 @@ bool PimgInput::valid_file(Filesystem::IOProxy* proxy) const
 }
 #endif
 
-DecodeLimits limits()
-{
-    DecodeLimits limits;
-    limits.channels = std::uint32_t(std::clamp(OIIO::get_int_attribute("limits:channels", 1024), 1, 1024));
-    const int megabytes = OIIO::get_int_attribute("limits:imagesize_MB", 32768);
-    if (megabytes > 0)
-        limits.sample_bytes = std::uint64_t(megabytes) << 20;
-    return limits;
-}
-
 bool PimgInput::open(const std::string& name, ImageSpec& spec, const ImageSpec& config)
 {
     close();
@@ -192,7 +162,7 @@ bool PimgInput::open(const std::string& name, ImageSpec& spec, const ImageSpec& 
         if (!ioproxy_use_or_open(file_of(name)))
             return false;
         // First whether the file is one of ours: OpenImageIO shows every reader files of unknown formats.
-        Status status = m_decoder.open(std::make_shared<ProxySource>(ioproxy()), limits());
+        const Status status = open_decoder(ioproxy(), m_decoder);
         if (!status)
             return fail(OIIO::Strutil::fmt::format("\"{}\": {}", name, status.error()));
         std::string error;
@@ -536,7 +506,9 @@ std::shared_ptr<const ImageBuf> PimgInput::make(int miplevel)
     if (!m_request.filtered())
         return source;
     ProgressiveImage progressive;
-    if (!progressive.build(*source, m_request.build, threads()))
+    const bool stored = m_decoder.has_hierarchy() && !m_request.rebuild;
+    if (stored ? !progressive.adopt(*source, stored_hierarchy(m_decoder, *source), m_request.build, threads())
+               : !progressive.build(*source, m_request.build, threads()))
         m_failure = progressive.error();
     else if (!m_request.run(*level, progressive, threads()))
         m_failure = level->geterror();

@@ -16,8 +16,8 @@
 #include <OpenImageIO/strutil.h>
 
 #include <pimg/progressive_image.h>
+#include <pimg/threads.h>
 
-#include "parallel.h"
 #include "pimg_pvt.h"
 
 namespace pimg {
