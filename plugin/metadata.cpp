@@ -243,6 +243,20 @@ ImageSpec to_spec(const PictureDesc& desc)
     return spec;
 }
 
+void add_hints(ImageSpec& spec, const WriteOptions& options)
+{
+    for (const Option<WriteOptions>& option : option_table<WriteOptions>()) {
+        const std::string name = std::string("pimg:") + option.rule.key;
+        const auto add = [&](const auto& value) { spec.attribute(name, value); };
+        std::visit([&](const auto& value) {
+            if constexpr (std::is_same_v<std::decay_t<decltype(value)>, bool>)
+                add(int(value));
+            else
+                add(value);
+        }, option.get(options));
+    }
+}
+
 std::string hint_text(const ParamValue& hint)
 {
     // Not get_float(): OpenImageIO 2.4 returns its default for an int.
@@ -260,10 +274,10 @@ template<> const std::vector<Option<io::WriteOptions>>& option_table<io::WriteOp
 {
     using W = io::WriteOptions;
     static const std::vector<Option<W>> table = {
-        option<W, &W::profile>({ "profile", 0, 0, "", "compact|full", "full keeps the hierarchy, so that filters start at once" }),
-        option<W, &W::vertices>({ "vertices", 0, 0.3, "of the pixels", "", "size of the mesh layer, the preview" }),
-        option<W, &W::effort>({ "effort", 0, 2, "", "", "0 writes faster, 2 smaller" }),
-        option<W, &W::tile>({ "tile", 16, 1024, "pixels", "", "side of the tiles the exact samples are coded in" }),
+        { &W::profile, { "profile", 0, 0, "", "compact|full", "full keeps the hierarchy, so that filters start at once" } },
+        { &W::vertices, { "vertices", 0, 0.3, "of the pixels", "", "size of the mesh layer, the preview" } },
+        { &W::effort, { "effort", 0, 2, "", "", "0 writes faster, 2 smaller" } },
+        { &W::tile, { "tile", 16, 1024, "pixels", "", "side of the tiles the exact samples are coded in" } },
     };
     return table;
 }

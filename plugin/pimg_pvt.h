@@ -34,8 +34,14 @@ OIIO::TypeDesc type_desc(SampleType type);
 PictureDesc to_desc(const OIIO::ImageSpec& spec);
 OIIO::ImageSpec to_spec(const PictureDesc& desc);
 
+/// Puts the options into a header as the hints a writer looks for.
+void add_hints(OIIO::ImageSpec& spec, const WriteOptions& options);
+
 /// Spellings of a number or word a hint may have: 500, 500.0f and "500" are the same.
 std::string hint_text(const OIIO::ParamValue& hint);
+
+/// The name of the file itself: without a query, unless there is a file that is literally called so.
+std::string file_of(const std::string& name);
 
 /// A writer that stores this hierarchy of the picture instead of building one; nullptr: an ordinary one.
 std::unique_ptr<OIIO::ImageOutput> make_output(const Hierarchy* hierarchy);

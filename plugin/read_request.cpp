@@ -284,9 +284,9 @@ template<> const std::vector<Option<io::ReadOptions>>& option_table<io::ReadOpti
 {
     using R = io::ReadOptions;
     static const std::vector<Option<R>> table = {
-        option<R, &R::mip>({ "mip", 0, 0, "", "", "show MIP levels, in tiles, as textures have them" }),
-        option<R, &R::partial>({ "partial", 0, 0, "", "", "show what there is of a file that was cut short" }),
-        option<R, &R::display>({ "display", 0, 0, "", "", "encode the result of hdr_compress for displays (sRGB)" }),
+        { &R::mip, { "mip", 0, 0, "", "", "show MIP levels, in tiles, as textures have them" } },
+        { &R::partial, { "partial", 0, 0, "", "", "show what there is of a file that was cut short" } },
+        { &R::display, { "display", 0, 0, "", "", "encode the result of hdr_compress for displays (sRGB)" } },
     };
     return table;
 }

@@ -15,9 +15,6 @@
 namespace pimg {
 namespace io {
 
-/// The name of the file itself: without a query, unless there is a file that is literally called so.
-std::string file_of(const std::string& name);
-
 /// Keys that go with any filter or none.
 struct ReadOptions {
     bool mip = false;
