@@ -176,7 +176,7 @@ TilePredictor choose_predictor(const TilePlane& plane, int effort)
             const TilePredictor p { shape, gouraud != 0 };
             std::uint64_t bits = estimate_tile_plane(plane, p);
             if (gouraud)
-                bits += bits / (effort < 2 ? 50 : 500);
+                bits += bits / (effort < 2 ? 25 : 500);
             if (bits < least) {
                 least = bits;
                 best = p;

@@ -41,39 +41,41 @@ std::int64_t predict(std::int64_t w, std::int64_t n, std::int64_t nw, std::int64
 template<Shape shape, bool gouraud, class Visit>
 void walk(const TilePlane& t, Visit&& visit)
 {
-    const int width = t.width;
-    const auto difference = [&](std::size_t at) {
+    const int width = t.width, height = t.height;
+    const std::size_t up = std::size_t(width);
+    const std::int32_t *const values = t.values, *const mesh = t.gouraud;
+    const std::uint16_t* const guide = t.guide;
+    std::uint16_t* const sizes = t.sizes;
+    const auto difference = [values, mesh](std::size_t at) {
         if constexpr (gouraud)
-            return std::int64_t(t.values[at]) - t.gouraud[at];
+            return std::int64_t(values[at]) - mesh[at];
         else
-            return std::int64_t(t.values[at]);
+            return std::int64_t(values[at]);
     };
     std::size_t at = 0;
-    for (int y = 0; y < t.height; ++y) {
+    for (int y = 0; y < height; ++y) {
         std::int64_t w = 0, n = 0, nw = 0, ne = 0;
         std::int64_t size_w = 0;
-        const std::size_t up = std::size_t(width);
         if (y > 0) {
             n = difference(at - up);
             w = nw = n;
-            size_w = t.sizes[at - up];
+            size_w = sizes[at - up];
         }
         for (int x = 0; x < width; ++x, ++at) {
             std::int64_t size_n = size_w;
             if (y > 0) {
                 ne = x + 1 < width ? difference(at - up + 1) : n;
-                size_n = t.sizes[at - up];
+                size_n = sizes[at - up];
             } else
                 n = nw = ne = w;
-            const std::int64_t base = gouraud ? std::int64_t(t.gouraud[at]) : 0;
+            const std::int64_t base = gouraud ? std::int64_t(mesh[at]) : 0;
             std::int64_t busy = size(w - nw) + size(n - nw) + size(n - ne) + 2 * (size_w + size_n);
-            if (t.guide)
-                busy += 2 * std::int64_t(t.guide[at]);
+            if (guide)
+                busy += 2 * std::int64_t(guide[at]);
             const std::uint32_t klass = class_of(std::uint32_t(std::min<std::int64_t>(busy, 0xffffffffll)));
-            const std::uint32_t residual_size
-                = visit(at, base + predict<shape>(w, n, nw, ne), klass);
+            const std::uint32_t residual_size = visit(at, base + predict<shape>(w, n, nw, ne), klass);
             size_w = std::min<std::uint32_t>(residual_size, 65535);
-            t.sizes[at] = std::uint16_t(size_w);
+            sizes[at] = std::uint16_t(size_w);
             w = difference(at);
             nw = n;
             n = ne;
@@ -178,11 +180,14 @@ bool read_symbols(ByteReader& in, const TilePlane& plane, TilePredictor predicto
     SymbolReader symbols;
     if (!symbols.open(in))
         return false;
-    walk(plane, predictor, [&](std::size_t at, std::int64_t prediction, std::uint32_t klass) {
-        const std::uint32_t v = symbols.next(klass);
-        plane.values[at] = restored(v, prediction);
+    SymbolCursor cursor = symbols.cursor();
+    std::int32_t* const values = plane.values;
+    walk(plane, predictor, [&cursor, values](std::size_t at, std::int64_t prediction, std::uint32_t klass) {
+        const std::uint32_t v = cursor.next(klass);
+        values[at] = restored(v, prediction);
         return size_of_folded(v);
     });
+    symbols.set_cursor(cursor);
     return symbols.finished();
 }
 

@@ -229,16 +229,26 @@ bool SymbolReader::open(ByteReader& in)
     const std::uint8_t* table_bytes = in.take(std::size_t(tables));
     if (!table_bytes || !read_tables(table_bytes, std::size_t(tables)))
         return false;
-    m_state[0] = in.u32();
-    m_state[1] = in.u32();
-    m_words = in.take(std::size_t(words) * 2);
-    m_words_left = std::size_t(words);
-    m_raw = in.take(std::size_t(raw));
-    m_raw_size = std::size_t(raw);
-    m_bit = 0;
-    m_bit_count = std::uint64_t(raw) * 8;
-    m_over = false;
-    return in.ok() && m_state[0] >= kStateLow && m_state[1] >= kStateLow;
+    SymbolCursor& c = m_cursor;
+    c = {};
+    c.state[0] = in.u32();
+    c.state[1] = in.u32();
+    const std::uint8_t* word_bytes = in.take(std::size_t(words) * 2);
+    const std::uint8_t* raw_bytes = in.take(std::size_t(raw));
+    if (!in.ok() || c.state[0] < kStateLow || c.state[1] < kStateLow)
+        return false;
+    m_words.assign(std::size_t(words) + 1, 0);
+    for (std::size_t i = 0; i < std::size_t(words); ++i)
+        m_words[i] = std::uint16_t(load_u16(word_bytes + 2 * i));
+    m_raw.assign(raw_bytes, raw_bytes + raw);
+    m_raw.resize(m_raw.size() + 8);
+    c.tables = m_tables.data();
+    c.context_of = m_context_of.data();
+    c.words = m_words.data();
+    c.word_count = std::size_t(words);
+    c.raw = m_raw.data();
+    c.raw_size = raw;
+    return true;
 }
 
 bool SymbolReader::read_tables(const std::uint8_t* data, std::size_t size)
@@ -259,7 +269,7 @@ bool SymbolReader::read_tables(const std::uint8_t* data, std::size_t size)
         const std::uint32_t used = in.direct(7);
         if (used < 1 || used > kTokens)
             return false;
-        Table& table = m_tables[i];
+        SymbolTable& table = m_tables[i];
         table.range.fill({ 0, 0 });
         std::uint32_t before = 0, sum = 0;
         for (std::uint32_t t = 0; t < used; ++t) {
@@ -279,8 +289,9 @@ bool SymbolReader::read_tables(const std::uint8_t* data, std::size_t size)
 
 bool SymbolReader::finished() const
 {
-    return !m_over && m_words_left == 0 && m_state[0] == kStateLow && m_state[1] == kStateLow
-           && m_bit_count - m_bit < 8;
+    const SymbolCursor& c = m_cursor;
+    return c.word == c.word_count && c.state[0] == kStateLow && c.state[1] == kStateLow && c.bit <= c.raw_size * 8
+           && c.raw_size * 8 - c.bit < 8;
 }
 
 }  // namespace pimg

@@ -58,84 +58,84 @@ private:
     std::vector<Symbol> m_symbols;
 };
 
-class SymbolReader {
-public:
-    /// Reads the tables and takes the rest of the stream; false when it is damaged. The bytes must stay alive.
-    bool open(ByteReader& in);
-
-    std::uint32_t next(std::uint32_t klass)
-    {
-        const std::uint32_t context = m_context_of[klass];
-        const Table& table = m_tables[context];
-        const std::uint32_t state = m_state[0], slot = state & (kProbabilities - 1);
-        const std::uint32_t token = table.token[slot];
-        std::uint32_t next = table.range[token].frequency * (state >> kProbabilityBits) + slot - table.range[token].start;
-        if (next < kStateLow)
-            next = next << 16 | pull();
-        m_state[0] = m_state[1];
-        m_state[1] = next;
-        if (token < 16)
-            return token;
-        const int extra = int(token - 16) / 2 + 3;
-        const std::uint32_t high = 2 + ((token - 16) & 1);
-        return high << extra | bits(extra);
-    }
-
-    /// Whether everything was read and nothing more.
-    bool finished() const;
-    /// Whether it read past the end; the numbers since then mean nothing.
-    bool overrun() const { return m_over; }
-
-private:
+/// Frequency table of one context, ready for reading.
+struct SymbolTable {
     struct Range {
         std::uint16_t frequency, start;
     };
-    struct Table {
-        std::array<std::uint8_t, kProbabilities> token;
-        std::array<Range, kTokens> range;
-    };
+    std::array<std::uint8_t, kProbabilities> token;
+    std::array<Range, kTokens> range;
+};
 
+/// The moving part of a SymbolReader. Loops copy it to a local variable, where it can live in registers. Nothing here
+/// branches on data; past the ends it reads padding and counts on.
+struct SymbolCursor {
+    const SymbolTable* tables = nullptr;
+    const std::uint8_t* context_of = nullptr;
+    const std::uint16_t* words = nullptr;
+    const std::uint8_t* raw = nullptr;
+    std::size_t word = 0, word_count = 0;
+    std::uint64_t bit = 0, raw_size = 0;
+    std::uint32_t state[2] = { kStateLow, kStateLow };
+
+    std::uint32_t next(std::uint32_t klass)
+    {
+        const SymbolTable& table = tables[context_of[klass]];
+        const std::uint32_t x = state[0], slot = x & (kProbabilities - 1);
+        const std::uint32_t token = table.token[slot];
+        const SymbolTable::Range range = table.range[token];
+        std::uint32_t y = range.frequency * (x >> kProbabilityBits) + slot - range.start;
+        const bool low = y < kStateLow;
+        const std::uint32_t more = y << 16 | words[word < word_count ? word : word_count];
+        y = low ? more : y;
+        word += low;
+        state[0] = state[1];
+        state[1] = y;
+        const TokenBits t = kTokenBits.of[token];
+        const std::uint64_t byte = bit >> 3;
+        const std::uint64_t window = load_u64(raw + (byte < raw_size ? byte : raw_size)) >> (bit & 7);
+        bit += t.extra;
+        return t.base + (std::uint32_t(window) & t.mask);
+    }
+
+private:
+    struct TokenBits {
+        std::uint32_t base, mask, extra;
+    };
+    struct TokenTable {
+        std::array<TokenBits, kTokens> of {};
+        constexpr TokenTable()
+        {
+            for (std::uint32_t t = 0; t < kTokens; ++t) {
+                const std::uint32_t extra = t < 16 ? 0 : (t - 16) / 2 + 3;
+                of[t] = { t < 16 ? t : (2 + (t & 1)) << extra, (1u << extra) - 1, extra };
+            }
+        }
+    };
+    static const TokenTable kTokenBits;
+};
+inline constexpr SymbolCursor::TokenTable SymbolCursor::kTokenBits {};
+
+class SymbolReader {
+public:
+    /// Reads the tables and takes the rest of the stream; false when it is damaged.
+    bool open(ByteReader& in);
+    std::uint32_t next(std::uint32_t klass) { return m_cursor.next(klass); }
+
+    SymbolCursor cursor() const { return m_cursor; }
+    void set_cursor(const SymbolCursor& cursor) { m_cursor = cursor; }
+
+    /// Whether everything was read and nothing more.
+    bool finished() const;
+
+private:
     bool read_tables(const std::uint8_t* data, std::size_t size);
 
-    std::uint32_t pull()
-    {
-        if (m_words_left == 0) {
-            m_over = true;
-            return 0;
-        }
-        const std::uint32_t word = load_u16(m_words);
-        m_words += 2;
-        --m_words_left;
-        return word;
-    }
-
-    std::uint32_t bits(int count)
-    {
-        if (m_bit + std::uint64_t(count) > m_bit_count) {
-            m_over = true;
-            return 0;
-        }
-        const std::size_t byte = std::size_t(m_bit >> 3);
-        std::uint64_t v = 0;
-        if (byte + 8 <= m_raw_size)
-            v = load_u64(m_raw + byte);
-        else
-            for (std::size_t k = m_raw_size; k-- > byte;)
-                v = v << 8 | m_raw[k];
-        v >>= m_bit & 7;
-        m_bit += std::uint64_t(count);
-        return std::uint32_t(v & ((1ull << count) - 1));
-    }
-
     std::array<std::uint8_t, kClasses> m_context_of {};
-    std::vector<Table> m_tables;
-    std::uint32_t m_state[2] = { kStateLow, kStateLow };
-    const std::uint8_t* m_words = nullptr;
-    std::size_t m_words_left = 0;
-    const std::uint8_t* m_raw = nullptr;
-    std::size_t m_raw_size = 0;
-    std::uint64_t m_bit = 0, m_bit_count = 0;
-    bool m_over = false;
+    std::vector<SymbolTable> m_tables;
+    std::vector<std::uint16_t> m_words;  ///< and one more
+    Bytes m_raw;                         ///< and eight more
+    SymbolCursor m_cursor;
 };
 
 /// log2(v) in 1/256 bits, v >= 1: the measure of every choice a writer makes, in integers so that files do not depend
