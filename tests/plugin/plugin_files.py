@@ -59,6 +59,16 @@ def read(name, kind=oiio.FLOAT, config=None):
     return pixels.reshape(file.spec().height, file.spec().width, -1)
 
 
+def bytes_of(name):
+    with open(name, "rb") as file:
+        return file.read()
+
+
+def store(name, data):
+    with open(name, "wb") as file:
+        file.write(data)
+
+
 class PluginTest(unittest.TestCase):
     def setUp(self):
         scratch = tempfile.TemporaryDirectory(prefix="pimg_plugin_")

@@ -12,13 +12,13 @@ import numpy as np
 import OpenImageIO as oiio
 
 import plugin_files
-from plugin_files import PLUGIN, opened, read, scene, write
+from plugin_files import PLUGIN, bytes_of, opened, read, scene, store, write
 
 
 class Catalogue(plugin_files.PluginTest):
     def test_formats_list_it_once(self):
         listed = self.ok("oiiotool", "--list-formats")
-        self.assertEqual(len(re.findall(r"\bpimg\b", listed)), 1, listed)
+        self.assertEqual(re.findall(r"pimg *:.*", listed), ["pimg : pimg"], listed)
         self.assertIn("pimg 0", self.ok("oiiotool", "--help"))
         self.assertIn("pimg", oiio.get_string_attribute("format_list").split(","))
 
@@ -50,7 +50,7 @@ class Catalogue(plugin_files.PluginTest):
 class Converting(plugin_files.PluginTest):
     def test_there_and_back(self):
         for name, kind in (("a.png", "uint8"), ("b.png", "uint16"), ("c.exr", "half"), ("d.tif", "float")):
-            write(name, scene(70, 50, 4), kind)
+            write(name, scene(70, 50, 3 if name == "a.png" else 4), kind)
             for profile in ("compact", "full"):
                 self.ok("oiiotool", name, "--attrib", "pimg:profile", profile, "-o", "a.pimg")
                 self.ok("oiiotool", "a.pimg", "-o", "back_" + name)
@@ -71,7 +71,7 @@ class Converting(plugin_files.PluginTest):
         self.assert_same("a.exr", "b.exr")
 
     def test_metadata_survives_and_hints_do_not(self):
-        attributes = {"Artist": "somebody", "oiio:ColorSpace": "lin_rec709", "my:number": 3, "my:share": 0.25}
+        attributes = {"Artist": "somebody", "my:number": 3, "my:share": 0.25}
         write("a.exr", scene(16, 16), "half", attributes)
         self.ok("oiiotool", "a.exr", "--attrib", "pimg:effort", 2, "-o", "a.pimg")
         self.ok("oiiotool", "a.pimg", "-o", "b.exr")
@@ -133,8 +133,10 @@ class Levels(plugin_files.PluginTest):
             self.assertNotIn("MIP", self.ok("iinfo", "-v", "plain_" + name))
         self.ok("oiiotool", "a.pimg?mip=1", "--selectmip", 2, "-o", "c.exr")
         self.assertEqual(read("c.exr").shape, (17, 32, 3))
-        halves = read("a.exr")[:68, :128].reshape(17, 4, 32, 4, 3).mean((1, 3))
-        self.assertLess(np.abs(read("c.exr") - halves).mean(), 0.01)
+        write("e.pimg", scene(128, 64), "float")
+        self.ok("oiiotool", "e.pimg?mip=1", "--selectmip", 2, "-o", "e.exr")
+        halves = read("e.pimg").reshape(16, 4, 32, 4, 3).mean((1, 3))
+        self.assertLess(np.abs(read("e.exr") - halves).max(), 1e-5)
         self.ok("oiiotool", "a.pimg?mip=1", "--unmip", "-o", "d.exr")
         self.assertNotIn("MIP", self.ok("iinfo", "-v", "d.exr"))
 
@@ -186,22 +188,22 @@ class Errors(plugin_files.PluginTest):
 
             resource.setrlimit(resource.RLIMIT_FSIZE, (50000, 50000))
 
-        before = open("old.pimg", "rb").read()
+        before = bytes_of("old.pimg")
         # Python ignores SIGXFSZ, and its children must go on doing so: then write() fails as on a full disk.
         limited = {"preexec_fn": small_files, "restore_signals": False}
         for name in ("new.pimg", "old.pimg"):
             self.fails("oiiotool", "a.exr", "-o", name, says="too large", **limited)
             self.fails("iconvert", "a.exr", name, says="too large", **limited)
-        self.assertEqual(open("old.pimg", "rb").read(), before)
+        self.assertEqual(bytes_of("old.pimg"), before)
         self.assertEqual(sorted(os.listdir()), ["a.exr", "old.pimg"])
 
     def test_unreadable_files_are_refused_at_once(self):
-        open("junk.pimg", "wb").write(b"junk" * 100)
-        open("empty.pimg", "wb").close()
-        open("junk.xyz", "wb").write(b"junk" * 100)
+        store("junk.pimg", b"junk" * 100)
+        store("empty.pimg", b"")
+        store("junk.xyz", b"junk" * 100)
         write("a.pimg", scene(40, 40), "uint8")
-        whole = open("a.pimg", "rb").read()
-        open("cut.pimg", "wb").write(whole[: len(whole) // 2])
+        whole = bytes_of("a.pimg")
+        store("cut.pimg", whole[: len(whole) // 2])
         for name in ("junk.pimg", "empty.pimg", "junk.xyz", "absent.pimg"):
             # A hang would be the lock of OpenImageIO's list of formats, which is held while every reader is tried.
             self.fails("oiiotool", name, "-o", "out.exr", says="")
