@@ -5,6 +5,8 @@
 #include <cstring>
 #include <numeric>
 
+#include "pixel_stencils.h"
+
 namespace pimg {
 
 Projection project(Point p, Point s, int degree, const Index* ring, const Point* points)
@@ -101,10 +103,24 @@ void fill_splits(const std::vector<CollapseRecord>& records, const std::vector<I
     }
 }
 
+/// Pixels of the finest mesh: of vertices by their number, and those between.
+void fill_pixels(const Finest& finest, const std::vector<Index>& number, Hierarchy& h)
+{
+    h.pixels.resize(number.size());
+    for (Index name = 0; name < Index(number.size()); ++name)
+        h.pixels[number[name]] = finest.initial ? finest.initial->pixels[name] : name;
+    if (number.size() == h.mesh_pixels())
+        return;
+    std::vector<Triangle> triangles(finest.initial->triangles());
+    for (std::size_t e = 0; e < finest.initial->corners.size(); ++e)
+        triangles[e / 3][e % 3] = finest.initial->pixels[finest.initial->corners[e]];
+    h.between = pixel_stencils(h.mesh_width(), h.mesh_height(), h.pixels, triangles, finest.parallel);
+}
+
 }  // namespace
 
-Status assemble(int width, int height, const std::vector<BaseVertex>& base, std::vector<CollapseRecord>&& records,
-                Index base_faces, Hierarchy& hierarchy, Bands& bands)
+Status assemble(int width, int height, const Finest& finest, const std::vector<BaseVertex>& base,
+                std::vector<CollapseRecord>&& records, Index base_faces, Hierarchy& hierarchy, Bands& bands)
 {
     Hierarchy h;
     Bands b;
@@ -113,14 +129,13 @@ Status assemble(int width, int height, const std::vector<BaseVertex>& base, std:
     {
         const std::vector<CollapseRecord> collapses = std::move(records);
         const std::vector<Index> by_order = sorted(collapses);
-        const std::vector<Index> number = number_names(h.mesh_pixels(), base, collapses, by_order);
+        const std::size_t names = finest.initial ? finest.initial->pixels.size() : h.mesh_pixels();
+        const std::vector<Index> number = number_names(names, base, collapses, by_order);
         fill_base(base, number, h, b);
         fill_splits(collapses, by_order, number, h, b);
-        h.pixels.resize(h.mesh_pixels());
-        for (Index name = 0; name < Index(number.size()); ++name)
-            h.pixels[number[name]] = name;
+        fill_pixels(finest, number, h);
     }
-    values_to_details(h, b);
+    values_to_details(h, finest.samples, b);
     const Level level = h.level_of_faces(base_faces);
     Status status = level > 0 ? rebase(h, b, level) : Status();
     if (status) {

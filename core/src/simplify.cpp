@@ -27,8 +27,8 @@ constexpr float kGuards[2] = { 1e-3f, 1e-5f };
 
 class Simplifier {
 public:
-    Simplifier(const float* samples, int width, int height, const SimplifyOptions& options)
-        : m_mesh(samples, width, height), m_options(options), m_total(m_mesh.alive())
+    Simplifier(WorkingMesh&& mesh, const SimplifyOptions& options)
+        : m_mesh(std::move(mesh)), m_options(options), m_total(m_mesh.alive())
     {
         m_stats.peak_bytes = m_mesh.bytes();
         pimg::run(options.parallel, m_mesh.tiles.size(),
@@ -159,11 +159,16 @@ Status simplify(const Guide& guide, const SimplifyOptions& options, Hierarchy& h
     Hierarchy shape;
     shape.width = guide.width;
     shape.height = guide.height;
+    if (options.initial
+        && (options.initial->width != shape.mesh_width() || options.initial->height != shape.mesh_height()))
+        return Status::failure("the initial mesh is for a picture of another size");
     const std::vector<float> samples = to_mesh_pixels(shape, guide.samples);
     std::vector<BaseVertex> base;
     std::vector<CollapseRecord> records;
     {
-        Simplifier simplifier(samples.data(), shape.mesh_width(), shape.mesh_height(), options);
+        Simplifier simplifier(options.initial ? WorkingMesh(samples.data(), *options.initial)
+                                              : WorkingMesh(samples.data(), shape.mesh_width(), shape.mesh_height()),
+                              options);
         if (!simplifier.run())
             return Status::failure("building was stopped");
         base = simplifier.base();
@@ -171,7 +176,8 @@ Status simplify(const Guide& guide, const SimplifyOptions& options, Hierarchy& h
         if (stats)
             *stats = simplifier.stats();
     }
-    return assemble(guide.width, guide.height, base, std::move(records), options.base_faces, hierarchy, bands);
+    const Finest finest { options.initial, samples.data(), options.parallel };
+    return assemble(guide.width, guide.height, finest, base, std::move(records), options.base_faces, hierarchy, bands);
 }
 
 }  // namespace pimg

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <pimg/ring.h>
+#include <pimg/sampling.h>
 #include <pimg/simplify.h>
 
 #include "collapse_cost.h"
@@ -23,7 +24,7 @@ struct alignas(64) Node {
     FanSums sums;         ///< of its fan, origin at the vertex
     float z;              ///< intensity
     Point p;              ///< position
-    Index name;           ///< mesh pixel of the vertex whose number it keeps
+    Index name;           ///< name of the vertex whose number it keeps: its mesh pixel, or its place in the initial mesh
     float order;          ///< cost of its last collapse, made monotone along dependencies
     Home home;
     std::uint8_t degree;  ///< 0: merged into another
@@ -58,6 +59,9 @@ public:
     /// add_up_fans().
     WorkingMesh(const float* samples, int width, int height);
 
+    /// The vertices and triangles of `initial`, which must not exceed kMaxDegree. A vertex takes the sample of its pixel.
+    WorkingMesh(const float* samples, const InitialMesh& initial);
+
     Index alive() const { return m_alive; }
     void add_dead(Index count) { m_alive -= count; }
     Zone zone(const Tile& tile) const;
@@ -73,9 +77,14 @@ public:
     }
 
 private:
+    void allocate(std::size_t vertices);
     void number_vertices(int width, int height, std::vector<Index>& number_of);
+    void number_vertices(const InitialMesh& initial, std::vector<Index>& number_of);
+    void place(Index v, Point p, float z, Index name, int width, int height);
     void build_rings(const float* samples, int width, int height, const std::vector<Index>& number_of);
+    void build_rings(const InitialMesh& initial, const std::vector<Index>& number_of);
     void merge_tiles();
+    void merge_small_tiles();
 
     Index m_alive = 0;
     std::uint32_t m_blocks_per_tile = 2;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Builds a hierarchy: full-edge collapses by memoryless volume optimisation (Lindstrom & Turk 1998,
-// 1999; paper, section 3.2) from one vertex per pixel down to a base mesh.
+// 1999; paper, section 3.2) from one vertex per pixel, or a simpler initial mesh, down to a base mesh.
 #pragma once
 
 #include <vector>
 
 #include <pimg/bands.h>
 #include <pimg/hierarchy.h>
+#include <pimg/sampling.h>
 #include <pimg/types.h>
 
 namespace pimg {
@@ -21,6 +22,7 @@ struct Guide {
 
 struct SimplifyOptions {
     Index base_faces = 128;  ///< triangles of the base mesh; 2 (the four corners) or more
+    const InitialMesh* initial = nullptr;  ///< mesh to start from; none: one vertex per pixel
     ParallelFor parallel;    ///< threads to use; the result does not depend on them
     Progress progress;
 };
