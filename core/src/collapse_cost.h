@@ -16,6 +16,7 @@
 #include <cstdint>
 
 #include <pimg/ring.h>
+#include <pimg/simplify.h>
 
 namespace pimg {
 
@@ -26,6 +27,13 @@ constexpr int kLanes = kMaxDegree;
 struct FanSums {
     float xx, xy, yy, xz, yz, zz;  ///< A = sum of n n^T
     float x, y, z;                 ///< N = sum of n
+};
+
+/// What a further guide channel adds. Its normals have their own x and y; z, an area, is the same for all channels.
+struct alignas(32) ChannelSums {
+    float xx, xy, yy, xz, yz;  ///< of A
+    float x, y;                ///< of N
+    float value;               ///< the channel's intensity at the vertex
 };
 
 /// Sides of the picture a vertex must stay on.
@@ -53,11 +61,21 @@ struct alignas(64) Normals {
     float pad_z[15], before_z, z[kLanes];
 };
 
+/// A further guide channel of the edges of a vertex, lane for lane as in EdgeFan.
+struct alignas(64) ChannelFan {
+    float z[kLanes + 8];
+    float a[5][kLanes], n[2][kLanes];
+    ChannelSums sums;
+    Normals normals;  ///< z is not used
+    float alpha[kLanes], beta[kLanes], offset[kLanes];
+};
+
 /// The edges from one vertex to its neighbours.
 struct alignas(64) EdgeFan {
-    int degree, lanes;    ///< lanes: 8 or 16, those computed
-    std::uint8_t side;    ///< Side of the centre vertex
-    bool on_border;       ///< whether the centre or any neighbour has a side
+    int degree, lanes;      ///< lanes: 8 or 16, those computed
+    int more_channels = 0;  ///< guide channels besides the first
+    std::uint8_t side;      ///< Side of the centre vertex
+    bool on_border;         ///< whether the centre or any neighbour has a side
 
     Corners corners;                            ///< the neighbours
     float fixed_x[kLanes], fixed_y[kLanes];     ///< 1 where the neighbour must stay on its side; only if on_border
@@ -68,6 +86,9 @@ struct alignas(64) EdgeFan {
     float cost[kLanes];                         ///< of collapsing edge j; infinite without a neighbour
     float x[kLanes], y[kLanes];                 ///< optimum, relative to the centre
     float alpha[kLanes], beta[kLanes], offset[kLanes];  ///< intensity there = offset - alpha x - beta y
+
+    float weights[kMaxGuideChannels];           ///< of the channels in the cost
+    ChannelFan more[kMaxGuideChannels - 1];
 };
 
 }  // namespace pimg

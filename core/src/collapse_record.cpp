@@ -69,12 +69,14 @@ std::vector<Index> number_names(std::size_t names, const std::vector<BaseVertex>
     return number;
 }
 
-void fill_base(const std::vector<BaseVertex>& base, const std::vector<Index>& number, Hierarchy& h, Bands& bands)
+void fill_base(const std::vector<BaseVertex>& base, const std::vector<Index>& number, Hierarchy& h,
+               std::vector<Bands>& bands)
 {
     for (const BaseVertex& v : base) {
         const Index n = number[v.name];
         h.base_points.push_back(v.p);
-        bands.base.push_back(v.z);
+        for (std::size_t c = 0; c < bands.size(); ++c)
+            bands[c].base.push_back(v.z[c]);
         for (int j = 0; j < v.degree; ++j) {
             const Index a = v.ring.v[std::size_t(j)], b = v.ring.v[std::size_t((j + 1) % v.degree)];
             if (a != kGhost && b != kGhost && n < number[a] && n < number[b])
@@ -84,22 +86,26 @@ void fill_base(const std::vector<BaseVertex>& base, const std::vector<Index>& nu
 }
 
 /// Splits, stencils and costs in coarse-to-fine order; details hold the true intensities of t and u for now.
-void fill_splits(const std::vector<CollapseRecord>& records, const std::vector<Index>& by_order,
-                 const std::vector<Index>& number, Hierarchy& h, Bands& bands)
+void fill_splits(const CollapseSequence& sequence, const std::vector<Index>& by_order, const std::vector<Index>& number,
+                 Hierarchy& h, std::vector<Bands>& bands)
 {
-    const std::size_t n = records.size();
+    const std::size_t n = sequence.records.size(), more = bands.size() - 1;
     h.splits.resize(n);
     h.stencils.resize(n);
     h.costs.resize(n);
-    bands.details.resize(n);
+    for (Bands& b : bands)
+        b.details.resize(n);
     const auto renumber = [&](Index name) { return name == kGhost ? kGhost : number[name]; };
     for (std::size_t i = 0; i < n; ++i) {
-        const CollapseRecord& r = records[by_order[n - 1 - i]];
+        const std::size_t from = by_order[n - 1 - i];
+        const CollapseRecord& r = sequence.records[from];
         h.splits[i] = { number[r.split.s], renumber(r.split.vl), renumber(r.split.vr), r.split.t, r.split.u };
         h.stencils[i] = { number[r.stencil.s], number[r.stencil.at], number[r.stencil.bt], number[r.stencil.au],
                           number[r.stencil.bu], r.stencil.wat, r.stencil.wbt, r.stencil.wau, r.stencil.wbu };
         h.costs[i] = r.order;
-        bands.details[i] = { r.zt, r.zu };
+        bands[0].details[i] = { r.zt, r.zu };
+        for (std::size_t c = 0; c < more; ++c)
+            bands[c + 1].details[i] = sequence.more[from * more + c];
     }
 }
 
@@ -119,23 +125,24 @@ void fill_pixels(const Finest& finest, const std::vector<Index>& number, Hierarc
 
 }  // namespace
 
-Status assemble(int width, int height, const Finest& finest, const std::vector<BaseVertex>& base,
-                std::vector<CollapseRecord>&& records, Index base_faces, Hierarchy& hierarchy, Bands& bands)
+Status assemble(int width, int height, const Finest& finest, CollapseSequence&& sequence, Index base_faces,
+                Hierarchy& hierarchy, std::vector<Bands>& bands)
 {
     Hierarchy h;
-    Bands b;
+    std::vector<Bands> b(std::size_t(sequence.channels));
     h.width = width;
     h.height = height;
     {
-        const std::vector<CollapseRecord> collapses = std::move(records);
-        const std::vector<Index> by_order = sorted(collapses);
+        const CollapseSequence done = std::move(sequence);
+        const std::vector<Index> by_order = sorted(done.records);
         const std::size_t names = finest.initial ? finest.initial->pixels.size() : h.mesh_pixels();
-        const std::vector<Index> number = number_names(names, base, collapses, by_order);
-        fill_base(base, number, h, b);
-        fill_splits(collapses, by_order, number, h, b);
+        const std::vector<Index> number = number_names(names, done.base, done.records, by_order);
+        fill_base(done.base, number, h, b);
+        fill_splits(done, by_order, number, h, b);
         fill_pixels(finest, number, h);
     }
-    values_to_details(h, finest.samples, b);
+    for (std::size_t c = 0; c < b.size(); ++c)
+        values_to_details(h, finest.guide.channels[c].samples, b[c]);
     const Level level = h.level_of_faces(base_faces);
     Status status = level > 0 ? rebase(h, b, level) : Status();
     if (status) {

@@ -7,6 +7,7 @@
 #include <pimg/bands.h>
 #include <pimg/hierarchy.h>
 #include <pimg/sampling.h>
+#include <pimg/simplify.h>
 
 namespace pimg {
 
@@ -24,21 +25,31 @@ struct CollapseRecord {
 struct BaseVertex {
     Index name;
     Point p;
-    float z;
+    std::vector<float> z;  ///< of every guide channel
     Ring ring;   ///< by name
     int degree;
 };
 
+/// All that is known when nothing is left to collapse.
+struct CollapseSequence {
+    int channels = 1;
+    std::vector<CollapseRecord> records;
+    std::vector<Detail> more;      ///< zt and zu of the channels after the first, channels - 1 a record
+    std::vector<BaseVertex> base;
+};
+
+/// What the finest mesh stands for.
+struct Finest {
+    const Guide& guide;          ///< samples per mesh pixel
+    const InitialMesh* initial;  ///< tells where names are; none: names are pixels
+    const ParallelFor& parallel;
+};
+
 /// Sorts the collapses by order (any two that do not depend on each other commute), numbers the vertices by
 /// the split that makes them, turns intensities into details, and keeps the coarsest level
-/// of at least `base_faces` triangles as base mesh. `finest.initial` tells where names are, none meaning that they are pixels.
-struct Finest {
-    const InitialMesh* initial;
-    const float* samples;  ///< of the guide, per mesh pixel
-    ParallelFor parallel;
-};
-Status assemble(int width, int height, const Finest& finest, const std::vector<BaseVertex>& base,
-                std::vector<CollapseRecord>&& records, Index base_faces, Hierarchy& hierarchy, Bands& bands);
+/// of at least `base_faces` triangles as base mesh.
+Status assemble(int width, int height, const Finest& finest, CollapseSequence&& sequence, Index base_faces,
+                Hierarchy& hierarchy, std::vector<Bands>& bands);
 
 /// Face (s, a, b) of the star of s that holds `p`, and the weights of a and b. `ring` is that of s in
 /// the coarser mesh starting with vr of the split; the first face that holds p is taken, from exact integers: everybody who

@@ -7,7 +7,6 @@
 #include "delaunay.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 
 namespace pimg {
@@ -27,7 +26,7 @@ int in_circle_sign(Int ax, Int ay, Int bx, Int by, Int cx, Int cy)
 
 class Sweep {
 public:
-    Sweep(InitialMesh& mesh, const float* samples);
+    Sweep(InitialMesh& mesh, const Guide& guide);
     void run();
 
 private:
@@ -50,22 +49,19 @@ private:
     void legalise();
     void settle_ties();
 
-    Point point(Index v) const { return m_points[v]; }
-
     InitialMesh& m_mesh;
-    const float* m_samples;
+    const Guide& m_guide;
     std::vector<Point> m_points;  // in pixels
     std::vector<Column> m_front;
     std::vector<Index> m_suspects;
 };
 
-Sweep::Sweep(InitialMesh& mesh, const float* samples)
-    : m_mesh(mesh), m_samples(samples), m_front(std::size_t(mesh.width))
+Sweep::Sweep(InitialMesh& mesh, const Guide& guide)
+    : m_mesh(mesh), m_guide(guide), m_front(std::size_t(mesh.width))
 {
-    const Index w = Index(mesh.width);
     m_points.reserve(mesh.pixels.size());
-    for (Index p : mesh.pixels)
-        m_points.push_back({ std::int32_t(p % w), std::int32_t(p / w) });
+    for (Index v = 0; v < mesh.vertices(); ++v)
+        m_points.push_back(mesh.pixel(v));
     mesh.corners.clear();
     mesh.twins.clear();
     mesh.corners.reserve(6 * mesh.pixels.size());
@@ -231,7 +227,13 @@ void Sweep::legalise()
 /// Checks every edge; takes the diagonal of the smaller jump where four pixels lie on a circle.
 void Sweep::settle_ties()
 {
-    const auto value = [&](Index h) { return m_samples[m_mesh.pixels[m_mesh.corners[h]]]; };
+    const auto jump = [&](Index from, Index to) {
+        const Index p = m_mesh.pixels[m_mesh.corners[from]], q = m_mesh.pixels[m_mesh.corners[to]];
+        float sum = 0.0f;
+        for (const GuideChannel& c : m_guide.channels)
+            sum += c.weight * (c.samples[p] - c.samples[q]) * (c.samples[p] - c.samples[q]);
+        return sum;
+    };
     for (Index e = 0; e < Index(m_mesh.corners.size()); ++e) {
         const Index twin = m_mesh.twins[e];
         if (twin == kNone || twin < e)
@@ -240,8 +242,7 @@ void Sweep::settle_ties()
         if (sign > 0) {
             m_suspects.push_back(e);
             legalise();
-        } else if (sign == 0
-                   && std::fabs(value(e) - value(twin)) > std::fabs(value(previous_edge(e)) - value(previous_edge(twin)))) {
+        } else if (sign == 0 && jump(e, twin) > jump(previous_edge(e), previous_edge(twin))) {
             flip(m_mesh, e);
         }
     }
@@ -324,7 +325,7 @@ bool DegreeLimiter::relieve(Index e)
 bool DegreeLimiter::is_flip_ok(Index e) const
 {
     const Index twin = m_mesh.twins[e];
-    const auto at = [&](Index h) { return m_mesh.point(m_mesh.corners[h]); };
+    const auto at = [&](Index h) { return m_mesh.pixel(m_mesh.corners[h]); };
     const Point a = at(e), b = at(twin), c = at(previous_edge(e)), d = at(previous_edge(twin));
     return doubled_area(d, b, c) > 0 && doubled_area(c, a, d) > 0;
 }
@@ -365,9 +366,9 @@ std::vector<Index> limit_degrees(InitialMesh& mesh)
     return DegreeLimiter(mesh).run();
 }
 
-void triangulate_delaunay(InitialMesh& mesh, const float* samples)
+void triangulate_delaunay(InitialMesh& mesh, const Guide& guide)
 {
-    Sweep(mesh, samples).run();
+    Sweep(mesh, guide).run();
 }
 
 }  // namespace pimg

@@ -2,6 +2,7 @@
 // Delaunay triangulation of pixels, exact in integers.
 #pragma once
 
+#include <pimg/ring.h>
 #include <pimg/sampling.h>
 
 namespace pimg {
@@ -9,8 +10,8 @@ namespace pimg {
 /// Sign of whether d lies inside the circle through the positively oriented a, b, c: > 0 inside, 0 on it. Exact for coordinates below 2^20.
 int in_circle(Point a, Point b, Point c, Point d);
 
-/// Fills corners and twins of a mesh whose pixels are set.
-void triangulate_delaunay(InitialMesh& mesh, const float* samples);
+/// Fills corners and twins of a mesh whose pixels are set; the guide decides ties.
+void triangulate_delaunay(InitialMesh& mesh, const Guide& guide);
 
 /// Half-edges of e's triangle after and before e.
 inline Index next_edge(Index e)

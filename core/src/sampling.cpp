@@ -3,7 +3,6 @@
 #include <pimg/sampling.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -13,90 +12,161 @@ namespace pimg {
 
 namespace {
 
-constexpr int kStrip = 64;        ///< rows worked on at a time
-#define GRAD 1
-#ifndef EXPO
-#define EXPO 0.5
-#define EVEN 0.1
-#endif
-constexpr double kEvenShare = EVEN;
+constexpr int kStrip = 64;  ///< rows worked on at a time
 
-std::size_t strips(int height)
-{
-    return std::size_t((height + kStrip - 1) / kStrip);
-}
+/// Share of the samples spread evenly. Without it a flat place next to an edge is spanned by fans of slivers; more
+/// costs accuracy (docs/adaptive.md).
+constexpr double kEvenShare = 0.1;
 
-template<class Row>
-void for_rows(int height, const ParallelFor& parallel, Row&& row)
+template<class Work>
+void for_strips(int height, const ParallelFor& parallel, Work&& work)
 {
-    run(parallel, strips(height), [&](std::size_t strip) {
-        const int y1 = std::min(height, int(strip + 1) * kStrip);
-        for (int y = int(strip) * kStrip; y < y1; ++y)
-            row(y);
-    });
+    const std::size_t strips = std::size_t((height + kStrip - 1) / kStrip);
+    run(parallel, strips, [&](std::size_t s) { work(s, int(s) * kStrip, std::min(height, int(s + 1) * kStrip)); });
 }
 
 float square(float v)
 {
     return v * v;
 }
+
+/// Pixel (x, y) and those around it: rows and columns beyond the picture repeat its sides.
+struct Neighbourhood {
+    const float *above, *here, *below;
+    int left, x, right;
+};
+
+float squared_gradient(const Neighbourhood& n)
+{
+    const float z = n.here[n.x];
+    return square(n.here[n.right] - z) + square(n.here[n.left] - z) + square(n.below[n.x] - z) + square(n.above[n.x] - z);
+}
+
+float squared_curvature(const Neighbourhood& n)
+{
+    const float z = n.here[n.x];
+    const float xx = n.here[n.left] + n.here[n.right] - 2.0f * z, yy = n.above[n.x] + n.below[n.x] - 2.0f * z;
+    const float xy = 0.25f * (n.below[n.right] + n.above[n.left] - n.below[n.left] - n.above[n.right]);
+    return square(xx) + square(yy) + 2.0f * square(xy);
+}
+
+template<class Measure>
+void add_row(const GuideChannel& channel, int width, int height, int y, Measure&& measure, float* map)
+{
+    const auto row = [&](int r) { return channel.samples + std::size_t(std::clamp(r, 0, height - 1)) * std::size_t(width); };
+    const float *above = row(y - 1), *here = row(y), *below = row(y + 1);
+    const auto add = [&](int left, int x, int right) {
+        map[x] += channel.weight * measure(Neighbourhood { above, here, below, left, x, right });
+    };
+    add(0, 0, 1);
+    for (int x = 1; x + 1 < width; ++x)
+        add(x - 1, x, x + 1);
+    add(width - 2, width - 1, width - 1);
+}
+
+/// How much of the map there is at each magnitude: 64 classes an octave, from the bits of its floats.
+class Histogram {
+public:
+    void add(const float* values, std::size_t n)
+    {
+        for (std::size_t i = 0; i < n; ++i) {
+            Class& c = m_classes[class_of(values[i])];
+            ++c.count;
+            c.sum += double(values[i]);
+        }
+    }
+    void add(const Histogram& other)
+    {
+        for (std::size_t k = 0; k < m_classes.size(); ++k) {
+            m_classes[k].count += other.m_classes[k].count;
+            m_classes[k].sum += other.m_classes[k].sum;
+        }
+    }
+
+    /// The scale that gives min(1, even + scale * value) the wanted sum; 0 if there is nothing to scale.
+    double scale_for(double wanted, double even) const;
+
+private:
+    struct Class {
+        std::size_t count = 0;
+        double sum = 0.0;
+    };
+    static std::size_t class_of(float value)
+    {
+        std::uint32_t bits;
+        std::memcpy(&bits, &value, sizeof bits);
+        return bits >> 17;
+    }
+    std::vector<Class> m_classes = std::vector<Class>(1 << 14);  // no sign: values are not negative
+};
+
+double Histogram::scale_for(double wanted, double even) const
+{
+    Class rest;
+    for (const Class& c : m_classes) {
+        rest.count += c.count;
+        rest.sum += c.sum;
+    }
+    // Classes from the top are full (1 a pixel) until the others, scaled, stay below 1.
+    double full = 0.0;
+    for (std::size_t k = m_classes.size(); k-- > 0 && rest.sum > 0.0;) {
+        const Class& c = m_classes[k];
+        if (c.count == 0)
+            continue;
+        const double scale = (wanted - full - even * double(rest.count)) / rest.sum;
+        if (scale * c.sum / double(c.count) + even <= 1.0)
+            return std::max(0.0, scale);
+        full += double(c.count);
+        rest.count -= c.count;
+        rest.sum -= c.sum;
+    }
+    return 1e30;  // everything that is not 0 is wanted
+}
+
 }  // namespace
 
-std::vector<float> control_map(const std::vector<const float*>& channels, int width, int height, Control control,
-                               const ParallelFor& parallel)
+std::vector<float> control_map(const Guide& guide, Control control, const ParallelFor& parallel)
 {
+    const int width = guide.width, height = guide.height;
     std::vector<float> map(std::size_t(width) * std::size_t(height), 0.0f);
-    const auto at = [&](const float* z, int x, int y) {
-        return z[std::size_t(std::clamp(y, 0, height - 1)) * std::size_t(width) + std::size_t(std::clamp(x, 0, width - 1))];
-    };
-    for_rows(height, parallel, [&](int y) {
-        for (const float* z : channels)
-            for (int x = 0; x < width; ++x) {
-                float& m = map[std::size_t(y) * std::size_t(width) + std::size_t(x)];
-                if (control == Control::gradient) {
-#if GRAD == 0
-                    m += square(at(z, x + 1, y) - at(z, x - 1, y)) + square(at(z, x, y + 1) - at(z, x, y - 1));
-#elif GRAD == 1
-                    const float c = at(z, x, y);
-                    m += square(at(z, x + 1, y) - c) + square(at(z, x - 1, y) - c) + square(at(z, x, y + 1) - c)
-                         + square(at(z, x, y - 1) - c);
-#elif GRAD == 2
-                    float sx = 2 * (at(z, x + 1, y) - at(z, x - 1, y)) + at(z, x + 1, y - 1) - at(z, x - 1, y - 1)
-                               + at(z, x + 1, y + 1) - at(z, x - 1, y + 1);
-                    float sy = 2 * (at(z, x, y + 1) - at(z, x, y - 1)) + at(z, x - 1, y + 1) - at(z, x - 1, y - 1)
-                               + at(z, x + 1, y + 1) - at(z, x + 1, y - 1);
-                    m += sx * sx + sy * sy;
-#endif
-                } else {
-                    const float xx = at(z, x + 1, y) + at(z, x - 1, y) - 2 * at(z, x, y);
-                    const float yy = at(z, x, y + 1) + at(z, x, y - 1) - 2 * at(z, x, y);
-                    const float xy = 0.25f * (at(z, x + 1, y + 1) + at(z, x - 1, y - 1) - at(z, x - 1, y + 1) - at(z, x + 1, y - 1));
-                    m += xx * xx + yy * yy + 2 * xy * xy;
-                }
-            }
+    for_strips(height, parallel, [&](std::size_t, int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            float* row = map.data() + std::size_t(y) * std::size_t(width);
+            for (const GuideChannel& c : guide.channels)
+                if (control == Control::gradient)
+                    add_row(c, width, height, y, squared_gradient, row);
+                else
+                    add_row(c, width, height, y, squared_curvature, row);
+            for (int x = 0; x < width; ++x)
+                row[x] = std::sqrt(row[x]);
+        }
     });
     return map;
 }
 
-void to_density(std::vector<float>& map, int width, int height, double density, const ParallelFor& parallel)
+void to_density(std::vector<float>& map, double density, const ParallelFor& parallel)
 {
-    (void)parallel;
-    double n = double(width) * height;
-    for (float& m : map)
-        m = std::pow(m, float(EXPO));
-    const double even = density * kEvenShare;
-    double lo = 0, hi = 1e30;
-    for (int it = 0; it < 200; ++it) {
-        double c = lo > 0 ? std::sqrt(lo * hi) : 1e-6; if (it == 0) c = 1e-6;
-        double sum = 0;
-        for (float m : map)
-            sum += std::min(1.0, even + c * m);
-        if (sum < density * n) lo = c; else hi = c;
-        if (lo == 0) lo = 1e-12;
-        if (hi / lo < 1.0001) break;
-    }
-    for (float& m : map)
-        m = float(std::min(1.0, even + lo * m));
+    constexpr std::size_t kBatch = 1 << 20;
+    const std::size_t batches = (map.size() + kBatch - 1) / kBatch;
+    const auto for_batches = [&](const std::function<void(std::size_t, float*, std::size_t)>& work) {
+        run(parallel, batches, [&](std::size_t b) {
+            work(b, map.data() + b * kBatch, std::min(kBatch, map.size() - b * kBatch));
+        });
+    };
+    std::vector<Histogram> histograms(batches);
+    for_batches([&](std::size_t b, float* values, std::size_t n) {
+        for (std::size_t i = 0; i < n; ++i)
+            values[i] = values[i] > 0.0f ? std::min(values[i], 1e30f) : 0.0f;
+        histograms[b].add(values, n);
+    });
+    for (std::size_t b = 1; b < batches; ++b)
+        histograms[0].add(histograms[b]);
+    const double even = kEvenShare * density;
+    const double scale = histograms[0].scale_for(density * double(map.size()), even);
+    for_batches([&](std::size_t, float* values, std::size_t n) {
+        for (std::size_t i = 0; i < n; ++i)
+            values[i] = float(std::min(1.0, even + scale * double(values[i])));
+    });
 }
 
 std::vector<Index> halftone(const std::vector<float>& probability, int width, int height)
@@ -106,6 +176,9 @@ std::vector<Index> halftone(const std::vector<float>& probability, int width, in
         e.assign(std::size_t(width) + 2, 0.0f);
     std::vector<char> keep(static_cast<std::size_t>(width));
     std::vector<Index> pixels;
+#ifdef KMOD
+    extern std::vector<float> g_mod;
+#endif
     for (int y = 0; y < height; ++y) {
         float *here = error[y & 1].data() + 1, *below = error[~y & 1].data() + 1;
         std::fill(below - 1, below + width + 1, 0.0f);
@@ -117,7 +190,11 @@ std::vector<Index> halftone(const std::vector<float>& probability, int width, in
             if (side_x || side_y)
                 p = std::sqrt(p);
             const float want = p + here[x];
+#ifdef KMOD
+            const bool chosen = want + KMOD * g_mod[std::size_t(y) * std::size_t(width) + std::size_t(x)] >= 0.5f || (side_x && side_y);
+#else
             const bool chosen = want >= 0.5f || (side_x && side_y);
+#endif
             keep[std::size_t(x)] = chosen;
             const float rest = (want - (chosen ? 1.0f : 0.0f)) * (1.0f / 16);
             here[x + step] += 7 * rest;
@@ -135,42 +212,58 @@ std::vector<Index> halftone(const std::vector<float>& probability, int width, in
 namespace {
 
 /// Adds the pixels around some vertices.
-void thicken(const std::vector<Index>& vertices, int width, int height, std::vector<Index>& pixels)
+void thicken(const std::vector<Index>& vertices, InitialMesh& mesh)
 {
-    const std::size_t before = pixels.size();
+    std::vector<Index>& pixels = mesh.pixels;
     for (Index v : vertices) {
-        const int x = int(pixels[v] % Index(width)), y = int(pixels[v] / Index(width));
-        for (int qy = std::max(0, y - 1); qy <= std::min(height - 1, y + 1); ++qy)
-            for (int qx = std::max(0, x - 1); qx <= std::min(width - 1, x + 1); ++qx)
-                pixels.push_back(Index(qy) * Index(width) + Index(qx));
+        const Point p = mesh.pixel(v);
+        for (int y = std::max(0, p.y - 1); y <= std::min(mesh.height - 1, p.y + 1); ++y)
+            for (int x = std::max(0, p.x - 1); x <= std::min(mesh.width - 1, p.x + 1); ++x)
+                pixels.push_back(Index(y) * Index(mesh.width) + Index(x));
     }
-    (void)before;
     std::sort(pixels.begin(), pixels.end());
     pixels.erase(std::unique(pixels.begin(), pixels.end()), pixels.end());
 }
 
 }  // namespace
 
-Status triangulate(std::vector<Index> pixels, int width, int height, const float* samples, InitialMesh& mesh)
+InitialMesh triangulate(std::vector<Index> pixels, const Guide& guide)
 {
-    mesh.width = width;
-    mesh.height = height;
+    InitialMesh mesh;
+    mesh.width = guide.width;
+    mesh.height = guide.height;
     mesh.pixels = std::move(pixels);
     for (;;) {
-        triangulate_delaunay(mesh, samples);
+        triangulate_delaunay(mesh, guide);
         const std::vector<Index> crowded = limit_degrees(mesh);
         if (crowded.empty())
-            return {};
-        thicken(crowded, width, height, mesh.pixels);
+            return mesh;
+        thicken(crowded, mesh);
     }
 }
 
-Status sample(const std::vector<const float*>& channels, int width, int height, const SamplingOptions& options,
-              InitialMesh& mesh)
+Status sample(const Guide& guide, const SamplingOptions& options, InitialMesh& mesh)
 {
-    std::vector<float> map = control_map(channels, width, height, options.control, options.parallel);
-    to_density(map, width, height, options.density, options.parallel);
-    return triangulate(halftone(map, width, height), width, height, channels[0], mesh);
+    if (guide.width < 2 || guide.height < 2 || guide.channels.empty())
+        return Status::failure("sampling needs a guide of 2 x 2 pixels or more");
+    if (!(options.density > 0.0 && options.density <= 1.0))
+        return Status::failure("density must be above 0 and at most 1");
+    const auto go_on = [&](float done) { return !options.progress || options.progress(done); };
+    const std::size_t n = std::size_t(guide.width) * std::size_t(guide.height);
+    std::vector<float> map = options.map ? std::vector<float>(options.map, options.map + n)
+                                         : control_map(guide, options.control, options.parallel);
+    to_density(map, options.density, options.parallel);
+    if (!go_on(0.2f))
+        return Status::failure("building was stopped");
+    std::vector<Index> pixels = halftone(map, guide.width, guide.height);
+    std::vector<float>().swap(map);
+    constexpr std::size_t kMost = 700u << 20;  // six half-edges each, numbered in 32 bits
+    if (pixels.size() > kMost)
+        return Status::failure("more than 7e8 samples: choose a lower density");
+    if (!go_on(0.4f))
+        return Status::failure("building was stopped");
+    mesh = triangulate(std::move(pixels), guide);
+    return go_on(1.0f) ? Status() : Status::failure("building was stopped");
 }
 
 }  // namespace pimg

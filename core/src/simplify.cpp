@@ -30,6 +30,7 @@ public:
     Simplifier(WorkingMesh&& mesh, const SimplifyOptions& options)
         : m_mesh(std::move(mesh)), m_options(options), m_total(m_mesh.alive())
     {
+        m_sequence.channels = m_mesh.more_channels + 1;
         m_stats.peak_bytes = m_mesh.bytes();
         pimg::run(options.parallel, m_mesh.tiles.size(),
                   [&](std::size_t i) { add_up_fans(m_mesh, m_mesh.tiles[i].first, m_mesh.tiles[i].last); });
@@ -38,8 +39,7 @@ public:
     /// False when progress asked to stop.
     bool run();
 
-    std::vector<BaseVertex> base() const;
-    std::vector<CollapseRecord> take_records() { return std::move(m_records); }
+    CollapseSequence take_sequence();
     const SimplifyStats& stats() const { return m_stats; }
 
 private:
@@ -53,7 +53,7 @@ private:
     const SimplifyOptions& m_options;
     Index m_total;
     float m_guard = kGuards[0];
-    std::vector<CollapseRecord> m_records;
+    CollapseSequence m_sequence;
     std::vector<Index> m_deferred;
     std::vector<TileOutput> m_outputs;
     SimplifyStats m_stats;
@@ -87,7 +87,8 @@ bool Simplifier::sweep(float limit)
     collect(output);
     m_mesh.compact_if_sparse();
     m_stats.peak_bytes
-        = std::max(m_stats.peak_bytes, m_mesh.bytes() + m_records.capacity() * sizeof(CollapseRecord));
+        = std::max(m_stats.peak_bytes, m_mesh.bytes() + m_sequence.records.capacity() * sizeof(CollapseRecord)
+                       + m_sequence.more.capacity() * sizeof(Detail));
     return true;
 }
 
@@ -107,7 +108,8 @@ void Simplifier::sweep_color(int color, float limit)
 
 void Simplifier::collect(TileOutput& output)
 {
-    m_records.insert(m_records.end(), output.records.begin(), output.records.end());
+    m_sequence.records.insert(m_sequence.records.end(), output.records.begin(), output.records.end());
+    m_sequence.more.insert(m_sequence.more.end(), output.more.begin(), output.more.end());
     m_deferred.insert(m_deferred.end(), output.deferred.begin(), output.deferred.end());
     m_mesh.add_dead(Index(output.records.size()));
     m_stats.collapses += output.records.size();
@@ -126,58 +128,74 @@ bool Simplifier::report() const
     return !m_options.progress || m_options.progress(1.0f - float(m_mesh.alive()) / float(m_total));
 }
 
-std::vector<BaseVertex> Simplifier::base() const
+CollapseSequence Simplifier::take_sequence()
 {
-    std::vector<BaseVertex> base;
+    std::vector<BaseVertex>& base = m_sequence.base;
     for (Index v = 0; v < Index(m_mesh.nodes.size()); ++v) {
         const Node& node = m_mesh.nodes[v];
         if (node.degree == 0)
             continue;
-        BaseVertex b { node.name, node.p, node.z, m_mesh.rings[v], node.degree };
+        BaseVertex b { node.name, node.p, { node.z }, m_mesh.rings[v], node.degree };
+        for (int c = 0; c < m_mesh.more_channels; ++c)
+            b.z.push_back(m_mesh.more_of(v)[c].value);
         for (int j = 0; j < b.degree; ++j) {
             Index& q = b.ring.v[std::size_t(j)];
             q = q == kGhost ? kGhost : m_mesh.nodes[q].name;
         }
-        base.push_back(b);
+        base.push_back(std::move(b));
     }
     std::sort(base.begin(), base.end(), [](const BaseVertex& a, const BaseVertex& b) { return a.name < b.name; });
-    return base;
+    return std::move(m_sequence);
 }
 
-}  // namespace
-
-Status simplify(const Guide& guide, const SimplifyOptions& options, Hierarchy& hierarchy, Bands& bands,
-                SimplifyStats* stats)
+/// One line on what is wrong with a guide; nothing if it can be built from.
+Status check(const Guide& guide)
 {
     constexpr int kMaxSide = 1 << 20;
-    if (!guide.samples || guide.width < 1 || guide.height < 1)
+    if (guide.width < 1 || guide.height < 1)
         return Status::failure("the picture is empty");
     if (guide.width > kMaxSide || guide.height > kMaxSide
         || std::uint64_t(guide.width) * std::uint64_t(guide.height) > (1ull << 31))
         return Status::failure("the picture is larger than 2^20 pixels a side or 2^31 in all");
+    if (guide.channels.empty() || guide.channels.size() > std::size_t(kMaxGuideChannels))
+        return Status::failure("a guide needs 1 to " + std::to_string(kMaxGuideChannels) + " channels");
+    for (const GuideChannel& c : guide.channels)
+        if (!c.samples || !(c.weight > 0.0f) || !std::isfinite(c.weight))
+            return Status::failure("a guide channel has no samples or a weight that is not positive");
+    return {};
+}
 
+}  // namespace
+
+Status simplify(const Guide& guide, const SimplifyOptions& options, Hierarchy& hierarchy, std::vector<Bands>& bands,
+                SimplifyStats* stats)
+{
+    if (const Status status = check(guide); !status)
+        return status;
     Hierarchy shape;
     shape.width = guide.width;
     shape.height = guide.height;
     if (options.initial
         && (options.initial->width != shape.mesh_width() || options.initial->height != shape.mesh_height()))
         return Status::failure("the initial mesh is for a picture of another size");
-    const std::vector<float> samples = to_mesh_pixels(shape, guide.samples);
-    std::vector<BaseVertex> base;
-    std::vector<CollapseRecord> records;
+    Guide on_mesh { shape.mesh_width(), shape.mesh_height(), guide.channels };
+    std::vector<std::vector<float>> samples;
+    if (guide.width < 2 || guide.height < 2)
+        for (GuideChannel& c : on_mesh.channels) {
+            samples.push_back(to_mesh_pixels(shape, c.samples));
+            c.samples = samples.back().data();
+        }
+    CollapseSequence sequence;
     {
-        Simplifier simplifier(options.initial ? WorkingMesh(samples.data(), *options.initial)
-                                              : WorkingMesh(samples.data(), shape.mesh_width(), shape.mesh_height()),
-                              options);
+        Simplifier simplifier(options.initial ? WorkingMesh(on_mesh, *options.initial) : WorkingMesh(on_mesh), options);
         if (!simplifier.run())
             return Status::failure("building was stopped");
-        base = simplifier.base();
-        records = simplifier.take_records();
+        sequence = simplifier.take_sequence();
         if (stats)
             *stats = simplifier.stats();
     }
-    const Finest finest { options.initial, samples.data(), options.parallel };
-    return assemble(guide.width, guide.height, finest, base, std::move(records), options.base_faces, hierarchy, bands);
+    const Finest finest { on_mesh, options.initial, options.parallel };
+    return assemble(guide.width, guide.height, finest, std::move(sequence), options.base_faces, hierarchy, bands);
 }
 
 }  // namespace pimg

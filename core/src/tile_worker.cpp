@@ -23,6 +23,10 @@ constexpr float kPixel = 1.0f / float(kSubpixels);
 /// Shares of the limit through which a tile approaches it: powers of 4^(1/6).
 constexpr float kSteps[] = { 0.31498026f, 0.39685026f, 0.5f, 0.62996052f, 0.79370052f, 1.0f };
 
+/// Key of a vertex just made, as a multiple of the cost that made it. Its edges are hardly ever cheaper than
+/// that; not looking at once saves an evaluation in nine and changes no quality (docs/internals.md).
+constexpr float kFreshKey = 3.0f;
+
 /// Stands in for the ghost and for lanes past the degree.
 const Node kNoNode = {};
 
@@ -31,12 +35,29 @@ inline int lanes_for(int degree)
     return degree <= 8 ? 8 : kLanes;
 }
 
-/// Adds d to a fan's sums; sign is +1 or -1.
-inline void add(FanSums& sums, const float* d)
+HWY_INLINE void clear(Corners& c, int lanes)
 {
-    float* s = &sums.xx;
-    for (int k = 0; k < 9; ++k)
-        s[k] += d[k];
+    const Lanes d;
+    for (int j = 0; j < lanes; j += int(hn::Lanes(d)))
+        for (float* of : { c.x, c.y, c.z, c.real })
+            hn::Store(hn::Zero(d), d, of + j);
+}
+
+/// Numbers of the vertices of a tile whose key is at most `limit`.
+HWY_INLINE void collect(const WorkingMesh& mesh, const Tile& tile, float limit, std::vector<Index>& candidates)
+{
+    const Lanes d;
+    const Index step = Index(hn::Lanes(d));
+    const auto most = hn::Set(d, limit);
+    candidates.clear();
+    for (Index v = tile.first; v < tile.last; v += step) {
+        const bool partial = v + step > tile.last;
+        if (!partial && hn::AllFalse(d, hn::Le(hn::LoadU(d, &mesh.keys[v]), most)))
+            continue;
+        for (Index q = v; q < (partial ? tile.last : v + step); ++q)
+            if (mesh.keys[q] <= limit)
+                candidates.push_back(q);
+    }
 }
 
 /// Copies four neighbours' nodes into lanes j .. j + 3: twelve floats each, turned on their side.
@@ -67,14 +88,15 @@ HWY_INLINE void load_nodes(const Node* const (&from)[4], Point centre, float cen
 
 /// The star s will have: ring of t from vr to vl, then that of u back to vr.
 struct Star {
-    int degree, vl;  ///< place of vl; vr is at 0
-    Corners corners; ///< relative to t
+    int degree, vl;   ///< place of vl; vr is at 0
+    Corners corners;  ///< relative to t
+    alignas(64) float more_z[kMaxGuideChannels - 1][kLanes + 8];
     Index ring[kLanes];
     Point points[kLanes];
 };
 
 struct Placement {
-    float x, y, z;
+    float x, y;
 };
 
 class TileWorker {
@@ -82,6 +104,8 @@ public:
     TileWorker(WorkingMesh& mesh, const TileJob& job, TileOutput& output)
         : m_mesh(mesh), m_zone(job.zone), m_guard(job.guard), m_out(output)
     {
+        m_fan.more_channels = mesh.more_channels;
+        std::copy(mesh.weights.begin(), mesh.weights.end(), m_fan.weights);
     }
 
     void run(const std::vector<Index>& vertices, float limit);
@@ -90,6 +114,8 @@ public:
 private:
     void visit(Index v, float limit);
     bool load_fan(Index v, bool check_zone);
+    void load_more_channels(Index v);
+    void keep_sums(Index v);
     int cheapest() const;
     bool load_star(Index t, int j, bool& deferred);
     bool find_placement(int j, float limit, float& cost, Placement& place) const;
@@ -127,8 +153,16 @@ void TileWorker::run(const std::vector<Index>& vertices, float limit)
 void TileWorker::add_up_fan(Index v)
 {
     load_fan(v, false);
-    fan_normals(m_fan.corners, m_fan.degree, m_fan.lanes, m_fan.normals);
-    m_mesh.nodes[v].sums = add_up(m_fan.normals, m_fan.lanes);
+    add_up_channels(m_fan);
+    keep_sums(v);
+}
+
+/// Stores the sums just added up: what updates left of rounding is gone.
+void TileWorker::keep_sums(Index v)
+{
+    m_mesh.nodes[v].sums = m_fan.sums;
+    for (int c = 0; c < m_fan.more_channels; ++c)
+        m_mesh.more_of(v)[c] = m_fan.more[c].sums;
 }
 
 /// Evaluates the edges of v; collapses the cheapest that may be, or files v under its cost.
@@ -140,7 +174,7 @@ void TileWorker::visit(Index v, float limit)
     }
     evaluate_edges(m_fan);
     ++m_out.evaluations;
-    m_mesh.nodes[v].sums = m_fan.sums;  // freshly added up: what updates left of rounding is gone
+    keep_sums(v);
     for (;;) {
         const int j = cheapest();
         float& cost = m_fan.cost[j];
@@ -192,6 +226,8 @@ bool TileWorker::load_fan(Index v, bool check_zone)
     for (int j = 0; j < lanes; j += 4)
         load_nodes({ from[j], from[j + 1], from[j + 2], from[j + 3] }, node.p, node.z, j, m_fan);
     close(m_fan.corners, degree, lanes);
+    if (m_fan.more_channels > 0)
+        load_more_channels(v);
     m_fan.on_border = sides != kFree;
     if (m_fan.on_border)
         for (int j = 0; j < lanes; ++j) {
@@ -199,6 +235,30 @@ bool TileWorker::load_fan(Index v, bool check_zone)
             m_fan.fixed_y[j] = from[j]->side & kFixedY ? 1.0f : 0.0f;
         }
     return true;
+}
+
+/// The part of load_fan() that guide channels after the first need.
+void TileWorker::load_more_channels(Index v)
+{
+    const ChannelSums none {};
+    for (int c = 0; c < m_fan.more_channels; ++c) {
+        ChannelFan& m = m_fan.more[c];
+        m.sums.value = m_mesh.more_of(v)[c].value;
+        for (int j = 0; j < m_fan.lanes; ++j) {
+            const Index q = j < m_fan.degree ? m_mesh.rings[v].v[std::size_t(j)] : kGhost;
+            const ChannelSums& s = q == kGhost ? none : m_mesh.more_of(q)[c];
+            m.z[j] = q == kGhost ? 0.0f : s.value - m.sums.value;
+            m.a[0][j] = s.xx;
+            m.a[1][j] = s.xy;
+            m.a[2][j] = s.yy;
+            m.a[3][j] = s.xz;
+            m.a[4][j] = s.yz;
+            m.n[0][j] = s.x;
+            m.n[1][j] = s.y;
+        }
+        m.z[m_fan.lanes] = 0.0f;
+        m.z[m_fan.degree] = m.z[0];
+    }
 }
 
 int TileWorker::cheapest() const
@@ -242,6 +302,7 @@ bool TileWorker::load_star(Index t, int j, bool& deferred)
         if (m_star.ring[k] != kGhost && m_mesh.nodes[m_star.ring[k]].degree <= 3)
             return false;
 
+    clear(m_star.corners, lanes_for(n));
     for (int k = 0; k < n; ++k) {
         const Index q = m_star.ring[k];
         const Node& corner = q == kGhost ? node : m_mesh.nodes[q];
@@ -256,6 +317,14 @@ bool TileWorker::load_star(Index t, int j, bool& deferred)
         m_star.points[k] = corner.p;
     }
     close(m_star.corners, n, lanes_for(n));
+    for (int c = 0; c < m_fan.more_channels; ++c) {
+        float* z = m_star.more_z[c];
+        std::fill(z, z + lanes_for(n) + 1, 0.0f);
+        for (int k = 0; k < n; ++k)
+            if (m_star.ring[k] != kGhost)
+                z[k] = m_mesh.more_of(m_star.ring[k])[c].value - m_mesh.more_of(t)[c].value;
+        z[n] = z[0];
+    }
     return true;
 }
 
@@ -282,7 +351,7 @@ bool TileWorker::find_placement(int j, float limit, float& cost, Placement& plac
         const float here = c == 0 ? cost : edge_cost_at(m_fan, j, cx, cy);
         if (here < best) {
             best = here;
-            place = { cx, cy, m_fan.offset[j] - m_fan.alpha[j] * cx - m_fan.beta[j] * cy };
+            place = { cx, cy };
         }
     }
     cost = best;
@@ -297,7 +366,7 @@ bool TileWorker::keeps_shape(float x, float y) const
     const auto vx = hn::Set(d, x), vy = hn::Set(d, y), guard = hn::Set(d, m_guard);
     bool ok = true;
     for (int j = 0; j < m_star.degree; j += int(hn::Lanes(d))) {
-        const Vec3 a = corner(m_star.corners, j), b = corner(m_star.corners, j + 1);
+        const Vec3 a = corner(m_star.corners, m_star.corners.z, j), b = corner(m_star.corners, m_star.corners.z, j + 1);
         const auto ex = a.x - vx, ey = a.y - vy, fx = b.x - vx, fy = b.y - vy, gx = a.x - b.x, gy = a.y - b.y;
         const auto longest = hn::Max(hn::Max(ex * ex + ey * ey, fx * fx + fy * fy), gx * gx + gy * gy);
         const auto short_of = hn::Lt(ex * fy - fx * ey, guard * longest);
@@ -328,11 +397,15 @@ void TileWorker::collapse(Index t, int j, const Placement& place, float cost)
     record(t, u, p, order);
 
     s.p = p;
-    s.z += place.z;
+    s.z += m_fan.offset[j] - m_fan.alpha[j] * place.x - m_fan.beta[j] * place.y;
+    for (int c = 0; c < m_fan.more_channels; ++c) {
+        const ChannelFan& m = m_fan.more[c];
+        m_mesh.more_of(t)[c].value += m.offset[j] - m.alpha[j] * place.x - m.beta[j] * place.y;
+    }
     s.order = order;
     s.side |= other.side;
     update_rings(t, u);
-    m_mesh.keys[t] = 0.0f;
+    m_mesh.keys[t] = kFreshKey * cost;
     m_mesh.keys[u] = kInfinity;
 }
 
@@ -349,57 +422,114 @@ void TileWorker::record(Index t, Index u, Point coarse, float order)
           node.z,
           other.z,
           order });
+    for (int c = 0; c < m_fan.more_channels; ++c)
+        m_out.more.push_back({ m_mesh.more_of(t)[c].value, m_mesh.more_of(u)[c].value });
 }
 
-/// Replaces the old triangles' contributions to every fan by the new ones'. A normal does not depend
-/// on the origin, so the three vertices of a triangle share its contribution.
-void TileWorker::update_sums(Index t, int j, const Placement& place)
+/// New minus old products of the normals around a star, triangle by triangle: xx xy yy xz yz x y | zz z.
+/// A normal does not depend on the origin, so the three vertices of a triangle share its contribution.
+struct Changes {
+    alignas(64) float of[9][kLanes];
+};
+
+/// Fills rows 0..6 of `changes` for one channel (and 7, 8 for the first) and the new normals. `z` are the corners'
+/// intensities, `u` the far end of the edge and `s` the new place, all relative to t.
+HWY_INLINE void star_changes(const Star& star, const float* z, const float (&u)[3], const float (&s)[3], bool areas,
+                             Changes& changes, Normals& after)
 {
     const Lanes d;
-    const int n = m_star.degree, lanes = lanes_for(n);
-    const Vec3 s { hn::Set(d, place.x), hn::Set(d, place.y), hn::Set(d, place.z) };
-    const auto ux = hn::Set(d, m_fan.corners.x[j]), uy = hn::Set(d, m_fan.corners.y[j]);
-    const auto uz = hn::Set(d, m_fan.corners.z[j]);
-    Normals after;
-    HWY_ALIGN float delta[9][kLanes];
-    for (int k = 0; k < lanes; k += int(hn::Lanes(d))) {
+    const Vec3 to { hn::Set(d, s[0]), hn::Set(d, s[1]), hn::Set(d, s[2]) };
+    const auto ux = hn::Set(d, u[0]), uy = hn::Set(d, u[1]), uz = hn::Set(d, u[2]);
+    const auto last_of_t = hn::Set(d, float(star.vl));
+    for (int k = 0; k < lanes_for(star.degree); k += int(hn::Lanes(d))) {
         // The old triangles have their apex in t up to vl, in u from there on.
-        const auto of_u = hn::IfThenZeroElse(hn::Lt(hn::Iota(d, float(k)), hn::Set(d, float(m_star.vl))),
-                                             hn::Set(d, 1.0f));
+        const auto of_u = hn::IfThenZeroElse(hn::Lt(hn::Iota(d, float(k)), last_of_t), hn::Set(d, 1.0f));
         const Vec3 apex { of_u * ux, of_u * uy, of_u * uz };
-        const Vec3 a = corner(m_star.corners, k), b = corner(m_star.corners, k + 1);
-        const auto mask = whole(m_star.corners, n, k);
-        const Vec3 o = cross(a - apex, b - apex, mask), p = cross(a - s, b - s, mask);
+        const Vec3 a = corner(star.corners, z, k), b = corner(star.corners, z, k + 1);
+        const auto mask = whole(star.corners, star.degree, k);
+        const Vec3 o = cross(a - apex, b - apex, mask), p = cross(a - to, b - to, mask);
         store(p, after, k);
-        hn::Store(p.x * p.x - o.x * o.x, d, delta[0] + k);
-        hn::Store(p.x * p.y - o.x * o.y, d, delta[1] + k);
-        hn::Store(p.y * p.y - o.y * o.y, d, delta[2] + k);
-        hn::Store(p.x * p.z - o.x * o.z, d, delta[3] + k);
-        hn::Store(p.y * p.z - o.y * o.z, d, delta[4] + k);
-        hn::Store(p.z * p.z - o.z * o.z, d, delta[5] + k);
-        hn::Store(p.x - o.x, d, delta[6] + k);
-        hn::Store(p.y - o.y, d, delta[7] + k);
-        hn::Store(p.z - o.z, d, delta[8] + k);
+        hn::Store(p.x * p.x - o.x * o.x, d, changes.of[0] + k);
+        hn::Store(p.x * p.y - o.x * o.y, d, changes.of[1] + k);
+        hn::Store(p.y * p.y - o.y * o.y, d, changes.of[2] + k);
+        hn::Store(p.x * p.z - o.x * o.z, d, changes.of[3] + k);
+        hn::Store(p.y * p.z - o.y * o.z, d, changes.of[4] + k);
+        hn::Store(p.x - o.x, d, changes.of[5] + k);
+        hn::Store(p.y - o.y, d, changes.of[6] + k);
+        if (areas) {
+            hn::Store(p.z * p.z - o.z * o.z, d, changes.of[7] + k);
+            hn::Store(p.z - o.z, d, changes.of[8] + k);
+        }
     }
-    for (int i = 0; i < n; ++i) {
-        if (m_star.ring[i] == kGhost)
+}
+
+/// Adds `d` (rows as in Changes) to a fan's sums.
+HWY_INLINE void add(FanSums& s, const float* d)
+{
+    s.xx += d[0];
+    s.xy += d[1];
+    s.yy += d[2];
+    s.xz += d[3];
+    s.yz += d[4];
+    s.x += d[5];
+    s.y += d[6];
+    s.zz += d[7];
+    s.z += d[8];
+}
+
+HWY_INLINE void add(ChannelSums& s, const float* d)
+{
+    float* sums = &s.xx;
+    for (int k = 0; k < 7; ++k)
+        sums[k] += d[k];
+}
+
+/// Applies the changes to every vertex of the star, and takes away the two triangles that vanish with edge j.
+/// `sums_of(q)` gives the sums of vertex q.
+template<class SumsOf>
+HWY_INLINE void apply(const Star& star, const Changes& changes, const EdgeFan& fan, const Normals& old, int j,
+                      SumsOf&& sums_of)
+{
+    for (int i = 0; i < star.degree; ++i) {
+        if (star.ring[i] == kGhost)
             continue;
-        float* sums = &m_mesh.nodes[m_star.ring[i]].sums.xx;
-        const int previous = i > 0 ? i - 1 : n - 1;
+        const int previous = i > 0 ? i - 1 : star.degree - 1;
+        float d[9];
         for (int k = 0; k < 9; ++k)
-            sums[k] += delta[k][i] + delta[k][previous];
+            d[k] = changes.of[k][i] + changes.of[k][previous];
+        add(sums_of(star.ring[i]), d);
     }
-    // The two triangles that vanish with the edge.
-    const auto drop = [&](Index q, float x, float y, float z) {
-        const float gone[9] = { -x * x, -x * y, -y * y, -x * z, -y * z, -z * z, -x, -y, -z };
+    const auto drop = [&](Index q, int lane) {
+        const float x = old.x[lane], y = old.y[lane], z = fan.normals.z[lane];
+        const float gone[9] = { -x * x, -x * y, -y * y, -x * z, -y * z, -x, -y, -z * z, -z };
         if (q != kGhost)
-            add(m_mesh.nodes[q].sums, gone);
+            add(sums_of(q), gone);
     };
-    const Normals& old = m_fan.normals;
-    drop(m_star.ring[0], old.x[j], old.y[j], old.z[j]);
-    const int before = j > 0 ? j - 1 : m_fan.degree - 1;
-    drop(m_star.ring[m_star.vl], old.x[before], old.y[before], old.z[before]);
+    drop(star.ring[0], j);
+    drop(star.ring[star.vl], j > 0 ? j - 1 : fan.degree - 1);
+}
+
+/// Replaces the old triangles' contributions to every fan by the new ones'.
+void TileWorker::update_sums(Index t, int j, const Placement& place)
+{
+    const float ux = m_fan.corners.x[j], uy = m_fan.corners.y[j];
+    const int lanes = lanes_for(m_star.degree);
+    Changes changes;
+    Normals after;
+    const float z = m_fan.offset[j] - m_fan.alpha[j] * place.x - m_fan.beta[j] * place.y;
+    star_changes(m_star, m_star.corners.z, { ux, uy, m_fan.corners.z[j] }, { place.x, place.y, z }, true, changes, after);
+    apply(m_star, changes, m_fan, m_fan.normals, j, [&](Index q) -> FanSums& { return m_mesh.nodes[q].sums; });
     m_mesh.nodes[t].sums = add_up(after, lanes);
+
+    for (int c = 0; c < m_fan.more_channels; ++c) {
+        const ChannelFan& m = m_fan.more[c];
+        const float zc = m.offset[j] - m.alpha[j] * place.x - m.beta[j] * place.y;
+        star_changes(m_star, m_star.more_z[c], { ux, uy, m.z[j] }, { place.x, place.y, zc }, false, changes, after);
+        apply(m_star, changes, m_fan, m.normals, j, [&](Index q) -> ChannelSums& { return m_mesh.more_of(q)[c]; });
+        const FanSums s = add_up(after, lanes);
+        ChannelSums& own = m_mesh.more_of(t)[c];
+        own = { s.xx, s.xy, s.yy, s.xz, s.yz, s.x, s.y, own.value };
+    }
 }
 
 void TileWorker::update_rings(Index t, Index u)
@@ -433,10 +563,7 @@ void collapse_tile(WorkingMesh& mesh, const Tile& tile, const TileJob& job, Tile
     std::vector<Index> candidates;
     for (float share : kSteps) {
         const float limit = job.limit * share;
-        candidates.clear();
-        for (Index v = tile.first; v < tile.last; ++v)
-            if (mesh.keys[v] <= limit)
-                candidates.push_back(v);
+        collect(mesh, tile, limit, candidates);
         worker.run(candidates, limit);
     }
 }

@@ -14,12 +14,14 @@ namespace pimg {
 /// What a tile's work leaves behind.
 struct TileOutput {
     std::vector<CollapseRecord> records;
+    std::vector<Detail> more;     ///< see CollapseSequence
     std::vector<Index> deferred;  ///< vertices whose neighbourhood reaches beyond the zone
     std::size_t evaluations = 0, refused = 0;
 
     void clear()
     {
         records.clear();
+        more.clear();
         deferred.clear();
         evaluations = refused = 0;
     }

@@ -44,40 +44,49 @@ void for_tiles(int width, int height, Visit&& visit)
     }
 }
 
-/// Whether quad (x, y)..(x + 1, y + 1) is cut from upper left to lower right.
-bool falling_diagonal(const float* samples, int width, int x, int y)
+/// Whether quad (x, y)..(x + 1, y + 1) is cut from upper left to lower right: along the smaller jump.
+bool falling_diagonal(const Guide& guide, int x, int y)
 {
-    const float* p = samples + std::size_t(y) * std::size_t(width) + std::size_t(x);
-    return std::fabs(p[0] - p[width + 1]) <= std::fabs(p[1] - p[width]);
+    float falling = 0.0f, rising = 0.0f;
+    for (const GuideChannel& c : guide.channels) {
+        const float* p = c.samples + std::size_t(y) * std::size_t(guide.width) + std::size_t(x);
+        falling += c.weight * (p[0] - p[guide.width + 1]) * (p[0] - p[guide.width + 1]);
+        rising += c.weight * (p[1] - p[guide.width]) * (p[1] - p[guide.width]);
+    }
+    return falling <= rising;
 }
 
 }  // namespace
 
-WorkingMesh::WorkingMesh(const float* samples, int width, int height)
+WorkingMesh::WorkingMesh(const Guide& guide) : more_channels(int(guide.channels.size()) - 1)
 {
-    const std::size_t n = std::size_t(width) * std::size_t(height);
-    allocate(n);
+    const std::size_t n = std::size_t(guide.width) * std::size_t(guide.height);
+    allocate(guide, n);
     std::vector<Index> number_of(n);
-    number_vertices(width, height, number_of);
-    build_rings(samples, width, height, number_of);
+    number_vertices(guide.width, guide.height, number_of);
+    build_rings(guide, number_of);
 }
 
-WorkingMesh::WorkingMesh(const float* samples, const InitialMesh& initial)
+WorkingMesh::WorkingMesh(const Guide& guide, const InitialMesh& initial)
+    : more_channels(int(guide.channels.size()) - 1)
 {
-    allocate(initial.pixels.size());
+    allocate(guide, initial.pixels.size());
     std::vector<Index> number_of(initial.pixels.size());
     number_vertices(initial, number_of);
     for (Index v = 0; v < initial.vertices(); ++v)
-        place(number_of[v], initial.point(v), samples[initial.pixels[v]], v, initial.width, initial.height);
+        place(number_of[v], guide, initial.pixels[v], v);
     build_rings(initial, number_of);
     merge_small_tiles();
 }
 
-void WorkingMesh::allocate(std::size_t vertices)
+void WorkingMesh::allocate(const Guide& guide, std::size_t vertices)
 {
     nodes.resize(vertices);
     rings.resize(vertices);
     keys.assign(vertices, 0.0f);
+    more.resize(vertices * std::size_t(more_channels));
+    for (const GuideChannel& c : guide.channels)
+        weights.push_back(c.weight);
     m_alive = Index(vertices);
 }
 
@@ -119,13 +128,16 @@ void WorkingMesh::number_vertices(const InitialMesh& initial, std::vector<Index>
 }
 
 /// Fills all of a node but its ring and sums.
-void WorkingMesh::place(Index v, Point p, float z, Index name, int width, int height)
+void WorkingMesh::place(Index v, const Guide& guide, Index pixel, Index name)
 {
-    const int x = p.x / kSubpixels, y = p.y / kSubpixels;
+    const int x = int(pixel % Index(guide.width)), y = int(pixel / Index(guide.width));
     Node& node = nodes[v];
-    node.side = std::uint8_t((x == 0 || x == width - 1 ? kFixedX : kFree) | (y == 0 || y == height - 1 ? kFixedY : kFree));
-    node.p = p;
-    node.z = z;
+    node.side = std::uint8_t((x == 0 || x == guide.width - 1 ? kFixedX : kFree)
+                             | (y == 0 || y == guide.height - 1 ? kFixedY : kFree));
+    node.p = { x * kSubpixels, y * kSubpixels };
+    node.z = guide.channels[0].samples[pixel];
+    for (int c = 0; c < more_channels; ++c)
+        more_of(v)[c].value = guide.channels[std::size_t(c) + 1].samples[pixel];
     node.name = name;
     node.order = 0.0f;
     node.home = { std::uint16_t(x / kBlock), std::uint16_t(y / kBlock) };
@@ -156,8 +168,9 @@ void WorkingMesh::build_rings(const InitialMesh& initial, const std::vector<Inde
     }
 }
 
-void WorkingMesh::build_rings(const float* samples, int width, int height, const std::vector<Index>& number_of)
+void WorkingMesh::build_rings(const Guide& guide, const std::vector<Index>& number_of)
 {
+    const int width = guide.width, height = guide.height;
     // The eight pixels around in ring order, the odd ones being diagonal.
     constexpr int kStepX[8] = { 1, 1, 0, -1, -1, -1, 0, 1 };
     constexpr int kStepY[8] = { 0, 1, 1, 1, 0, -1, -1, -1 };
@@ -176,11 +189,11 @@ void WorkingMesh::build_rings(const float* samples, int width, int height, const
                 }
                 const bool diagonal = k & 1;
                 if (diagonal
-                    && falling_diagonal(samples, width, std::min(x, qx), std::min(y, qy)) != (kStepX[k] == kStepY[k]))
+                    && falling_diagonal(guide, std::min(x, qx), std::min(y, qy)) != (kStepX[k] == kStepY[k]))
                     continue;
                 ring.v[std::size_t(degree++)] = number_of[std::size_t(qy) * std::size_t(width) + std::size_t(qx)];
             }
-            place(number_of[pixel], { x * kSubpixels, y * kSubpixels }, samples[pixel], Index(pixel), width, height);
+            place(number_of[pixel], guide, Index(pixel), Index(pixel));
             nodes[number_of[pixel]].degree = std::uint8_t(degree);
         }
 }
@@ -188,13 +201,14 @@ void WorkingMesh::build_rings(const float* samples, int width, int height, const
 Zone WorkingMesh::zone(const Tile& tile) const
 {
     const std::uint32_t n = m_blocks_per_tile, half = n / 2;
-    const std::uint32_t x0 = tile.x * n, y0 = tile.y * n;
-    return { x0 < half ? 0 : x0 - half, y0 < half ? 0 : y0 - half, x0 + n + half, y0 + n + half };
+    // At the left and upper side the difference wraps round, and so it does in contains().
+    return { tile.x * n - half, tile.y * n - half, n + 2 * half, n + 2 * half };
 }
 
 std::size_t WorkingMesh::bytes() const
 {
-    return nodes.capacity() * sizeof(Node) + rings.capacity() * sizeof(Ring) + keys.capacity() * sizeof(float);
+    return nodes.capacity() * sizeof(Node) + rings.capacity() * sizeof(Ring) + keys.capacity() * sizeof(float)
+           + more.capacity() * sizeof(ChannelSums);
 }
 
 void WorkingMesh::compact_if_sparse()
@@ -211,6 +225,7 @@ void WorkingMesh::compact_if_sparse()
                 nodes[next] = nodes[v];
                 rings[next] = rings[v];
                 keys[next] = keys[v];
+                std::copy(more_of(v), more_of(v) + more_channels, more_of(next));
                 ++next;
             }
         tile.first = first;
@@ -219,9 +234,11 @@ void WorkingMesh::compact_if_sparse()
     nodes.resize(next);
     rings.resize(next);
     keys.resize(next);
+    more.resize(std::size_t(next) * std::size_t(more_channels));
     nodes.shrink_to_fit();
     rings.shrink_to_fit();
     keys.shrink_to_fit();
+    more.shrink_to_fit();
     for (Index v = 0; v < next; ++v)
         for (int j = 0; j < nodes[v].degree; ++j) {
             Index& q = rings[v].v[std::size_t(j)];

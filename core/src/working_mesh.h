@@ -9,6 +9,7 @@
 
 #include <pimg/ring.h>
 #include <pimg/sampling.h>
+#include <pimg/sampling.h>
 #include <pimg/simplify.h>
 
 #include "collapse_cost.h"
@@ -41,8 +42,8 @@ struct Tile {
 /// Rectangle of blocks a tile may touch: itself and half of each tile around it. Tiles of one
 /// of the four colours never share a block, so they can be worked on at once.
 struct Zone {
-    std::uint32_t x0, y0, x1, y1;  // half open
-    bool contains(Home h) const { return h.x >= x0 && h.x < x1 && h.y >= y0 && h.y < y1; }
+    std::uint32_t x0, y0, width, height;
+    bool contains(Home h) const { return h.x - x0 < width && h.y - y0 < height; }
 };
 
 class WorkingMesh {
@@ -54,13 +55,18 @@ public:
     std::vector<Ring> rings;
     std::vector<float> keys;  ///< cost at or below which a vertex is worth a look; infinite: not before its neighbourhood changes
     std::vector<Tile> tiles;
+    int more_channels = 0;          ///< guide channels besides the first
+    std::vector<ChannelSums> more;  ///< of vertex v: [v * more_channels, (v + 1) * more_channels)
+    std::vector<float> weights;     ///< of all channels
 
     /// One vertex per mesh pixel; each quad is cut along the diagonal with the smaller jump. Sums are left to
     /// add_up_fans().
-    WorkingMesh(const float* samples, int width, int height);
+    explicit WorkingMesh(const Guide& guide);
 
-    /// The vertices and triangles of `initial`, which must not exceed kMaxDegree. A vertex takes the sample of its pixel.
-    WorkingMesh(const float* samples, const InitialMesh& initial);
+    /// The vertices and triangles of `initial`, which must not exceed kMaxDegree. A vertex takes the samples of its pixel.
+    WorkingMesh(const Guide& guide, const InitialMesh& initial);
+
+    ChannelSums* more_of(Index v) { return more.data() + std::size_t(v) * std::size_t(more_channels); }
 
     Index alive() const { return m_alive; }
     void add_dead(Index count) { m_alive -= count; }
@@ -77,11 +83,11 @@ public:
     }
 
 private:
-    void allocate(std::size_t vertices);
+    void allocate(const Guide& guide, std::size_t vertices);
     void number_vertices(int width, int height, std::vector<Index>& number_of);
     void number_vertices(const InitialMesh& initial, std::vector<Index>& number_of);
-    void place(Index v, Point p, float z, Index name, int width, int height);
-    void build_rings(const float* samples, int width, int height, const std::vector<Index>& number_of);
+    void place(Index v, const Guide& guide, Index pixel, Index name);
+    void build_rings(const Guide& guide, const std::vector<Index>& number_of);
     void build_rings(const InitialMesh& initial, const std::vector<Index>& number_of);
     void merge_tiles();
     void merge_small_tiles();

@@ -14,10 +14,12 @@ class BandsOnScene : public testing::Test {
 protected:
     void SetUp() override
     {
-        ASSERT_TRUE(simplify({ picture.width, picture.height, picture.samples.data() }, {}, hierarchy, guide).ok());
+        ASSERT_TRUE(simplify({ picture.width, picture.height, { { picture.samples.data() } } }, {}, hierarchy, built).ok());
+        guide = built[0];
     }
     const test::Picture picture = test::scene(120, 90);
     Hierarchy hierarchy;
+    std::vector<Bands> built;
     Bands guide;
 };
 
@@ -37,7 +39,7 @@ TEST_F(BandsOnScene, AnalysisOfTheGuideAgreesWithTheEngine)
 TEST_F(BandsOnScene, SynthesisUndoesAnalysisOfOtherChannels)
 {
     const test::Picture noise = test::make("noise", 120, 90, [](int x, int y) { return test::noise(x, y, 7); });
-    const test::Picture ramp = test::make("ramp", 120, 90, [](int x, int y) { return 0.3f * x - 0.1f * y; });
+    const test::Picture ramp = test::make("ramp", 120, 90, [](int x, int y) { return 0.3f * float(x) - 0.1f * float(y); });
     std::vector<Bands> bands;
     ASSERT_TRUE(analyse(hierarchy, { noise.samples.data(), ramp.samples.data() }, bands).ok());
     std::vector<float> out(hierarchy.mesh_pixels());
@@ -77,13 +79,13 @@ TEST_F(BandsOnScene, SynthesisIsLinear)
 TEST_F(BandsOnScene, RebaseForgetsSplitsOnly)
 {
     Hierarchy h = hierarchy;
-    Bands b = guide;
+    std::vector<Bands> b { guide };
     ASSERT_TRUE(rebase(h, b, 500).ok());
     EXPECT_EQ(h.levels() + 500, hierarchy.levels());
     EXPECT_EQ(h.vertices(), hierarchy.vertices());
     EXPECT_TRUE(validate(h).ok()) << validate(h).error();
     std::vector<float> out(hierarchy.mesh_pixels());
-    synthesise(h, b, out.data());
+    synthesise(h, b[0], out.data());
     EXPECT_EQ(out, picture.samples);
 }
 

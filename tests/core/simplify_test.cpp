@@ -24,8 +24,11 @@ struct Built {
 Built build(const Picture& p, const SimplifyOptions& options = {})
 {
     Built b;
-    const Status s = simplify({ p.width, p.height, p.samples.data() }, options, b.hierarchy, b.bands);
+    std::vector<Bands> bands;
+    const Status s = simplify({ p.width, p.height, { { p.samples.data() } } }, options, b.hierarchy, bands);
     EXPECT_TRUE(s.ok()) << p.name << ": " << s.error();
+    if (s)
+        b.bands = bands[0];
     return b;
 }
 
@@ -185,19 +188,76 @@ TEST(Simplify, StopsWhenAsked)
     const Picture p = test::scene(100, 100);
     SimplifyOptions options;
     options.progress = [](float done) { return done < 0.3f; };
-    Built b;
-    const Status s = simplify({ p.width, p.height, p.samples.data() }, options, b.hierarchy, b.bands);
-    EXPECT_FALSE(s.ok());
-    EXPECT_TRUE(b.hierarchy.empty());
+    Hierarchy h;
+    std::vector<Bands> bands;
+    EXPECT_FALSE(simplify({ p.width, p.height, { { p.samples.data() } } }, options, h, bands).ok());
+    EXPECT_TRUE(h.empty());
 }
 
 TEST(Simplify, RefusesNothingAndTooMuch)
 {
-    Built b;
+    Hierarchy h;
+    std::vector<Bands> bands;
     const float one = 1.0f;
-    EXPECT_FALSE(simplify({ 0, 0, &one }, {}, b.hierarchy, b.bands).ok());
-    EXPECT_FALSE(simplify({ 4, 4, nullptr }, {}, b.hierarchy, b.bands).ok());
-    EXPECT_FALSE(simplify({ 1 << 21, 1, &one }, {}, b.hierarchy, b.bands).ok());
+    EXPECT_FALSE(simplify({ 0, 0, { { &one } } }, {}, h, bands).ok());
+    EXPECT_FALSE(simplify({ 4, 4, { { nullptr } } }, {}, h, bands).ok());
+    EXPECT_FALSE(simplify({ 1, 1, {} }, {}, h, bands).ok());
+    EXPECT_FALSE(simplify({ 1, 1, { { &one, -1.0f } } }, {}, h, bands).ok());
+    EXPECT_FALSE(simplify({ 1 << 21, 1, { { &one } } }, {}, h, bands).ok());
+}
+
+/// Two halves of equal luma and opposite colour: 0.5 r + 0.5 g is the same everywhere.
+std::vector<Picture> equal_luma_edge()
+{
+    const auto wavy = [](int x, int y) { return float(x) + 6.0f * std::sin(0.15f * float(y)) < 48.0f; };
+    const auto texture = [](int x, int y) { return 4.0f * test::noise(std::uint32_t(x), std::uint32_t(y)); };
+    return { test::make("r", 96, 96, [&](int x, int y) { return (wavy(x, y) ? 180.0f : 60.0f) + texture(x, y); }),
+             test::make("g", 96, 96, [&](int x, int y) { return (wavy(x, y) ? 60.0f : 180.0f) + texture(x, y); }) };
+}
+
+TEST(Simplify, SeveralChannelsShareOneGeometryAndKeepTheirEdges)
+{
+    const std::vector<Picture> p = equal_luma_edge();
+    std::vector<float> luma;
+    for (std::size_t i = 0; i < p[0].samples.size(); ++i)
+        luma.push_back(0.5f * (p[0].samples[i] + p[1].samples[i]));
+    Hierarchy grey, colour;
+    std::vector<Bands> grey_bands, colour_bands;
+    ASSERT_TRUE(simplify({ 96, 96, { { luma.data() } } }, {}, grey, grey_bands).ok());
+    ASSERT_TRUE(simplify({ 96, 96, { { p[0].samples.data() }, { p[1].samples.data() } } }, {}, colour, colour_bands).ok());
+    EXPECT_TRUE(validate(colour).ok()) << validate(colour).error();
+    ASSERT_TRUE(analyse(grey, { p[0].samples.data(), p[1].samples.data() }, grey_bands).ok());
+    const auto error = [&](const Hierarchy& h, const std::vector<Bands>& bands) {
+        std::vector<float> out(h.mesh_pixels());
+        Mesh mesh;
+        const Level level = h.level_of_vertices(0.02 * 96 * 96);
+        EXPECT_TRUE(refine(h, level, mesh).ok());
+        double total = 0.0;
+        for (std::size_t c = 0; c < 2; ++c) {
+            const std::vector<float> z = values_at(h, bands[c], level);
+            rasterize(mesh, { z.data() }, { out.data() });
+            total += psnr(out, p[c].samples) / 2.0;
+        }
+        return total;
+    };
+    EXPECT_GT(error(colour, colour_bands), error(grey, grey_bands) + 6.0);
+    for (std::size_t c = 0; c < 2; ++c) {
+        std::vector<float> out(colour.mesh_pixels());
+        synthesise(colour, colour_bands[c], out.data());
+        for (std::size_t i = 0; i < out.size(); ++i)
+            ASSERT_NEAR(out[i], p[c].samples[i], 255e-6f);
+    }
+}
+
+TEST(Simplify, AChannelTwiceIsTheChannelOnceWithTwiceTheWeight)
+{
+    const Picture p = test::scene(70, 60);
+    Hierarchy one, two;
+    std::vector<Bands> a, b;
+    ASSERT_TRUE(simplify({ 70, 60, { { p.samples.data(), 2.0f } } }, {}, one, a).ok());
+    ASSERT_TRUE(simplify({ 70, 60, { { p.samples.data() }, { p.samples.data() } } }, {}, two, b).ok());
+    EXPECT_TRUE(same_bytes(one.splits, two.splits));
+    EXPECT_TRUE(same_bytes(b[0].details, b[1].details));
 }
 
 }  // namespace

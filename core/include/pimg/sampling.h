@@ -3,24 +3,24 @@
 // Delaunay. Simplification can start from it instead of from one vertex per pixel; what it cannot
 // represent is the residual of Bands.
 //
-//     samples --control_map--> map --halftone--> pixels --triangulate--> InitialMesh --simplify--> Hierarchy
+//     guide --control_map--> map --to_density--> probabilities --halftone--> pixels --triangulate--> InitialMesh
 #pragma once
 
 #include <vector>
 
-#include <pimg/mesh.h>
+#include <pimg/guide.h>
 #include <pimg/types.h>
 
 namespace pimg {
 
-/// What the density of vertices follows.
+/// What the density of vertices follows, summed over the guide's channels by weight.
 enum class Control {
-    gradient,   ///< squared gradient magnitude, summed over channels: the paper's
-    curvature,  ///< squared second derivatives, summed over channels
+    gradient,   ///< squared differences to the four neighbours: the paper's squared gradient magnitude
+    curvature,  ///< squared second derivatives
 };
 
 struct SamplingOptions {
-    double density = 1.0 / 3;    ///< fraction of the pixels kept, 0..1
+    double density = 1.0 / 3;    ///< largest fraction of the pixels kept, 0..1; fewer where the map is 0
     Control control = Control::gradient;
     const float* map = nullptr;  ///< own control map: a value >= 0 per pixel, row-major; used instead of `control`
     ParallelFor parallel;        ///< threads to use; the result does not depend on them
@@ -37,33 +37,32 @@ struct InitialMesh {
 
     Index vertices() const { return Index(pixels.size()); }
     std::size_t triangles() const { return corners.size() / 3; }
-    Point point(Index v) const
+    /// Position of a vertex in pixels.
+    Point pixel(Index v) const
     {
-        const Index w = Index(width);
-        return { std::int32_t(pixels[v] % w) * kSubpixels, std::int32_t(pixels[v] / w) * kSubpixels };
+        return { std::int32_t(pixels[v] % Index(width)), std::int32_t(pixels[v] / Index(width)) };
     }
 };
 
-/// Control map of one or more channels (row-major, width x height): a value >= 0 per pixel. Only ratios matter.
-std::vector<float> control_map(const std::vector<const float*>& channels, int width, int height, Control control,
-                               const ParallelFor& parallel = {});
+/// Control map of a guide: the root of what `control` names, per pixel. Only ratios matter. The root because an error of
+/// interpolation grows with the first power of a difference: docs/adaptive.md compares the exponents.
+std::vector<float> control_map(const Guide& guide, Control control, const ParallelFor& parallel = {});
 
-/// Probability 0..1 of each pixel to be kept: proportional to the map where that stays below 1, with a small even share,
-/// so scaled that their mean is `density`.
-void to_density(std::vector<float>& map, int width, int height, double density, const ParallelFor& parallel = {});
+/// Turns a control map into the probability 0..1 of each pixel to be kept: a small even share, and proportional to the map
+/// where that stays below 1, so scaled that their mean is `density`. Values that are no number, or negative, count as 0.
+void to_density(std::vector<float>& map, double density, const ParallelFor& parallel = {});
 
-/// Serpentine error diffusion of such probabilities. Corners are always chosen, and sides are chosen
-/// from as densely as their surroundings are. Returns pixels, increasing.
+/// Serpentine error diffusion (Floyd and Steinberg) of such probabilities. Corners are always chosen, and pixels of the
+/// sides with the root of their probability, which makes neighbours on a side as close as those around it. Returns pixels, increasing.
 std::vector<Index> halftone(const std::vector<float>& probability, int width, int height);
 
-/// Delaunay triangulation of the chosen pixels (increasing, with the four corners), exact for any choice. Where four or more
-/// lie on one circle, the diagonal across which `samples` (one per pixel) jump less is taken. Edges are
-/// flipped away from vertices of more than kMaxDegree neighbours; fails when that is impossible.
-Status triangulate(std::vector<Index> pixels, int width, int height, const float* samples, InitialMesh& mesh);
+/// Delaunay triangulation of chosen pixels of the guide (increasing, with the four corners), exact for any choice. Where
+/// four or more lie on one circle, the diagonal across which the guide jumps less is taken. Edges are flipped away from
+/// vertices of more than kMaxDegree neighbours; where that is impossible the pixels around such a vertex are added.
+InitialMesh triangulate(std::vector<Index> pixels, const Guide& guide);
 
-/// All of it. The channels hold one finite value per mesh pixel; the first decides diagonals.
-/// Fails on sizes and densities out of range, or when `progress` asked to stop.
-Status sample(const std::vector<const float*>& channels, int width, int height, const SamplingOptions& options,
-              InitialMesh& mesh);
+/// All of it, for a guide of at least 2 x 2 pixels. Fails on sizes and densities out of range, or when `progress`
+/// asked to stop.
+Status sample(const Guide& guide, const SamplingOptions& options, InitialMesh& mesh);
 
 }  // namespace pimg

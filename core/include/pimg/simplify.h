@@ -6,24 +6,17 @@
 #include <vector>
 
 #include <pimg/bands.h>
+#include <pimg/guide.h>
 #include <pimg/hierarchy.h>
 #include <pimg/sampling.h>
 #include <pimg/types.h>
 
 namespace pimg {
 
-/// The channel that decides the geometry: one finite sample per pixel, row-major. One unit is
-/// about one step of an 8-bit picture: |samples| should be of the order of 255 so that
-/// noise and features are told apart on the right scale.
-struct Guide {
-    int width = 0, height = 0;
-    const float* samples = nullptr;
-};
-
 struct SimplifyOptions {
-    Index base_faces = 128;  ///< triangles of the base mesh; 2 (the four corners) or more
-    const InitialMesh* initial = nullptr;  ///< mesh to start from; none: one vertex per pixel
-    ParallelFor parallel;    ///< threads to use; the result does not depend on them
+    Index base_faces = 128;                ///< triangles of the base mesh; 2 (the four corners) or more
+    const InitialMesh* initial = nullptr;  ///< mesh to start from (sampling.h); none: one vertex per pixel
+    ParallelFor parallel;                  ///< threads to use; the result does not depend on them
     Progress progress;
 };
 
@@ -35,10 +28,10 @@ struct SimplifyStats {
     std::size_t peak_bytes = 0;   ///< working memory of the engine at its largest
 };
 
-/// Simplifies the height field of `guide`. `bands` receives the guide's own bands, whose coarse
-/// values preserve the volume under the surface at every level: the mean intensity of every M_i is the picture's.
+/// Simplifies the height field of `guide`. `bands` receives the guide channels' own bands, whose coarse values preserve
+/// the volume under the surface at every level: the mean intensity of every M_i is the picture's.
 /// Fails on an empty or oversized guide, or when `progress` asked to stop.
-Status simplify(const Guide& guide, const SimplifyOptions& options, Hierarchy& hierarchy, Bands& bands,
+Status simplify(const Guide& guide, const SimplifyOptions& options, Hierarchy& hierarchy, std::vector<Bands>& bands,
                 SimplifyStats* stats = nullptr);
 
 }  // namespace pimg
