@@ -41,18 +41,20 @@ private:
     void insert(Index v, int& near);
     void fill_notches(int column);
     bool fill(int column, bool always);
+    void attach(Index e, Index twin);
     Index add_triangle(Index a, Index b, Index c, Index ab, Index bc, Index ca);
     void join(int left, int right, Index edge);
 
     int direction(Index e) const;
     void flip_inside(Index e);
-    void legalise();
-    void settle_ties();
+    void legalise(bool near);
+    void settle();
 
     InitialMesh& m_mesh;
     const Guide& m_guide;
     std::vector<Point> m_points;  // in pixels
     std::vector<Column> m_front;
+    Index m_size = 0;             // half-edges so far
     std::vector<Index> m_suspects;
 };
 
@@ -62,10 +64,8 @@ Sweep::Sweep(InitialMesh& mesh, const Guide& guide)
     m_points.reserve(mesh.pixels.size());
     for (Index v = 0; v < mesh.vertices(); ++v)
         m_points.push_back(mesh.pixel(v));
-    mesh.corners.clear();
-    mesh.twins.clear();
-    mesh.corners.reserve(6 * mesh.pixels.size());
-    mesh.twins.reserve(6 * mesh.pixels.size());
+    mesh.corners.resize(6 * mesh.pixels.size());
+    mesh.twins.resize(6 * mesh.pixels.size());
 }
 
 void Sweep::run()
@@ -90,7 +90,9 @@ void Sweep::run()
         else
             c = m_front[std::size_t(c)].right;
     }
-    settle_ties();
+    m_mesh.corners.resize(m_size);
+    m_mesh.twins.resize(m_size);
+    settle();
 }
 
 void Sweep::start_front(Index count)
@@ -126,17 +128,24 @@ void Sweep::flip_inside(Index e)
 
 Index Sweep::add_triangle(Index a, Index b, Index c, Index ab, Index bc, Index ca)
 {
-    const Index e = Index(m_mesh.corners.size());
-    m_mesh.corners.insert(m_mesh.corners.end(), { a, b, c });
-    m_mesh.twins.insert(m_mesh.twins.end(), { kNone, kNone, kNone });
-    const Index twins[3] = { ab, bc, ca };
-    for (Index k = 0; k < 3; ++k)
-        if (twins[k] != kNone) {
-            m_mesh.twins[e + k] = twins[k];
-            m_mesh.twins[twins[k]] = e + k;
-            m_suspects.push_back(e + k);
-        }
+    const Index e = m_size;
+    m_size += 3;
+    m_mesh.corners[e] = a;
+    m_mesh.corners[e + 1] = b;
+    m_mesh.corners[e + 2] = c;
+    attach(e, ab);
+    attach(e + 1, bc);
+    attach(e + 2, ca);
     return e;
+}
+
+void Sweep::attach(Index e, Index twin)
+{
+    m_mesh.twins[e] = twin;
+    if (twin != kNone) {
+        m_mesh.twins[twin] = e;
+        m_suspects.push_back(e);
+    }
 }
 
 /// Puts v below the front; `near` is a front column at or left of where to look.
@@ -168,7 +177,7 @@ void Sweep::insert(Index v, int& near)
         }
     }
     near = x;
-    legalise();
+    legalise(false);
     fill_notches(x);
 }
 
@@ -198,7 +207,7 @@ bool Sweep::fill(int column, bool always)
     m_front[std::size_t(column)].vertex = kNone;
     const Index e = add_triangle(left.vertex, at.vertex, right.vertex, left.edge, at.edge, kNone);
     join(at.left, at.right, e + 2);
-    legalise();
+    legalise(false);
     return true;
 }
 
@@ -210,8 +219,9 @@ int Sweep::direction(Index e) const
     return in_circle(at(e), at(next_edge(e)), at(previous_edge(e)), at(previous_edge(twin)));
 }
 
-/// Flips edges until those in doubt, and those a flip puts in doubt, have empty circles.
-void Sweep::legalise()
+/// Flips edges until those in doubt, and those a flip puts in doubt, have empty circles. While the sweep goes on the two near
+/// ones of a flip are left to settle(): they hardly ever turn out bad.
+void Sweep::legalise(bool near)
 {
     while (!m_suspects.empty()) {
         const Index e = m_suspects.back();
@@ -220,13 +230,31 @@ void Sweep::legalise()
         if (twin == kNone || direction(e) <= 0)
             continue;
         flip_inside(e);
-        m_suspects.insert(m_suspects.end(), { e, twin, next_edge(e), next_edge(twin) });
+        m_suspects.push_back(e);
+        m_suspects.push_back(next_edge(twin));
+        if (near) {
+            m_suspects.push_back(next_edge(e));
+            m_suspects.push_back(twin);
+        }
     }
 }
 
-/// Checks every edge; takes the diagonal of the smaller jump where four pixels lie on a circle.
-void Sweep::settle_ties()
+/// Checks every edge, so that all circles are empty; then takes the diagonal of the smaller jump where four pixels lie on one.
+void Sweep::settle()
 {
+    std::vector<Index> ties;
+    for (Index e = 0; e < m_size; ++e) {
+        const Index twin = m_mesh.twins[e];
+        if (twin == kNone || twin < e)
+            continue;
+        const int sign = direction(e);
+        if (sign == 0)
+            ties.push_back(e);
+        if (sign > 0) {
+            m_suspects.push_back(e);
+            legalise(true);
+        }
+    }
     const auto jump = [&](Index from, Index to) {
         const Index p = m_mesh.pixels[m_mesh.corners[from]], q = m_mesh.pixels[m_mesh.corners[to]];
         float sum = 0.0f;
@@ -234,17 +262,10 @@ void Sweep::settle_ties()
             sum += c.weight * (c.samples[p] - c.samples[q]) * (c.samples[p] - c.samples[q]);
         return sum;
     };
-    for (Index e = 0; e < Index(m_mesh.corners.size()); ++e) {
+    for (Index e : ties) {
         const Index twin = m_mesh.twins[e];
-        if (twin == kNone || twin < e)
-            continue;
-        const int sign = direction(e);
-        if (sign > 0) {
-            m_suspects.push_back(e);
-            legalise();
-        } else if (sign == 0 && jump(e, twin) > jump(previous_edge(e), previous_edge(twin))) {
+        if (direction(e) == 0 && jump(e, twin) > jump(previous_edge(e), previous_edge(twin)))
             flip(m_mesh, e);
-        }
     }
 }
 
@@ -271,12 +292,15 @@ DegreeLimiter::DegreeLimiter(InitialMesh& mesh) : m_mesh(mesh), m_degrees(mesh.p
 
 std::vector<Index> DegreeLimiter::run()
 {
+    const auto crowded = [](Index degree) { return degree > Index(kMaxDegree); };
     std::vector<Index> stuck;
+    if (std::none_of(m_degrees.begin(), m_degrees.end(), crowded))
+        return stuck;
     for (bool again = true; again;) {
         again = false;
         stuck.clear();
         for (Index e = 0; e < Index(m_mesh.corners.size()); ++e)
-            while (m_degrees[m_mesh.corners[e]] > Index(kMaxDegree)) {
+            while (crowded(m_degrees[m_mesh.corners[e]])) {
                 if (!relieve(e)) {
                     stuck.push_back(m_mesh.corners[e]);
                     break;

@@ -161,7 +161,7 @@ void to_density(std::vector<float>& map, double density, const ParallelFor& para
     });
     for (std::size_t b = 1; b < batches; ++b)
         histograms[0].add(histograms[b]);
-    const double even = kEvenShare * density;
+    const double even = density < 1.0 ? kEvenShare * density : 1.0;
     const double scale = histograms[0].scale_for(density * double(map.size()), even);
     for_batches([&](std::size_t, float* values, std::size_t n) {
         for (std::size_t i = 0; i < n; ++i)
@@ -174,36 +174,27 @@ std::vector<Index> halftone(const std::vector<float>& probability, int width, in
     std::vector<float> error[2];
     for (auto& e : error)
         e.assign(std::size_t(width) + 2, 0.0f);
-    std::vector<char> keep(static_cast<std::size_t>(width));
+    std::vector<char> chosen(static_cast<std::size_t>(width));
     std::vector<Index> pixels;
-#ifdef KMOD
-    extern std::vector<float> g_mod;
-#endif
     for (int y = 0; y < height; ++y) {
         float *here = error[y & 1].data() + 1, *below = error[~y & 1].data() + 1;
         std::fill(below - 1, below + width + 1, 0.0f);
+        const float* row = probability.data() + std::size_t(y) * std::size_t(width);
         const bool side_y = y == 0 || y == height - 1;
         const int step = y & 1 ? -1 : 1;
         for (int i = 0, x = y & 1 ? width - 1 : 0; i < width; ++i, x += step) {
-            float p = probability[std::size_t(y) * std::size_t(width) + std::size_t(x)];
             const bool side_x = x == 0 || x == width - 1;
-            if (side_x || side_y)
-                p = std::sqrt(p);
-            const float want = p + here[x];
-#ifdef KMOD
-            const bool chosen = want + KMOD * g_mod[std::size_t(y) * std::size_t(width) + std::size_t(x)] >= 0.5f || (side_x && side_y);
-#else
-            const bool chosen = want >= 0.5f || (side_x && side_y);
-#endif
-            keep[std::size_t(x)] = chosen;
-            const float rest = (want - (chosen ? 1.0f : 0.0f)) * (1.0f / 16);
-            here[x + step] += 7 * rest;
-            below[x - step] += 3 * rest;
-            below[x] += 5 * rest;
+            const float wanted = (side_x || side_y ? std::sqrt(row[x]) : row[x]) + here[x];
+            const bool keep = wanted >= 0.5f || (side_x && side_y);
+            chosen[std::size_t(x)] = keep;
+            const float rest = (wanted - (keep ? 1.0f : 0.0f)) / 16.0f;
+            here[x + step] += 7.0f * rest;
+            below[x - step] += 3.0f * rest;
+            below[x] += 5.0f * rest;
             below[x + step] += rest;
         }
         for (int x = 0; x < width; ++x)
-            if (keep[std::size_t(x)])
+            if (chosen[std::size_t(x)])
                 pixels.push_back(Index(y) * Index(width) + Index(x));
     }
     return pixels;
@@ -211,18 +202,38 @@ std::vector<Index> halftone(const std::vector<float>& probability, int width, in
 
 namespace {
 
-/// Adds the pixels around some vertices.
+/// Adds the pixels halfway to the neighbours of some vertices, or, should all those be there, the pixels around them:
+/// with these a vertex has eight neighbours, so that repeating this comes to an end.
 void thicken(const std::vector<Index>& vertices, InitialMesh& mesh)
 {
     std::vector<Index>& pixels = mesh.pixels;
-    for (Index v : vertices) {
-        const Point p = mesh.pixel(v);
+    const std::size_t before = pixels.size();
+    std::vector<Index> added;
+    const auto add = [&](int x, int y) { added.push_back(Index(y) * Index(mesh.width) + Index(x)); };
+    std::vector<bool> crowded(pixels.size());
+    for (Index v : vertices)
+        crowded[v] = true;
+    for (Index e = 0; e < Index(mesh.corners.size()); ++e)
+        if (crowded[mesh.corners[e]]) {
+            const Point p = mesh.pixel(mesh.corners[e]), q = mesh.pixel(mesh.corners[next_edge(e)]);
+            add((p.x + q.x) / 2, (p.y + q.y) / 2);
+        }
+    const auto merge = [&] {
+        pixels.insert(pixels.end(), added.begin(), added.end());
+        std::sort(pixels.begin(), pixels.end());
+        pixels.erase(std::unique(pixels.begin(), pixels.end()), pixels.end());
+    };
+    std::vector<Point> around;
+    for (Index v : vertices)
+        around.push_back(mesh.pixel(v));
+    merge();
+    if (pixels.size() > before)
+        return;
+    for (Point p : around)
         for (int y = std::max(0, p.y - 1); y <= std::min(mesh.height - 1, p.y + 1); ++y)
             for (int x = std::max(0, p.x - 1); x <= std::min(mesh.width - 1, p.x + 1); ++x)
-                pixels.push_back(Index(y) * Index(mesh.width) + Index(x));
-    }
-    std::sort(pixels.begin(), pixels.end());
-    pixels.erase(std::unique(pixels.begin(), pixels.end()), pixels.end());
+                add(x, y);
+    merge();
 }
 
 }  // namespace
@@ -257,7 +268,7 @@ Status sample(const Guide& guide, const SamplingOptions& options, InitialMesh& m
         return Status::failure("building was stopped");
     std::vector<Index> pixels = halftone(map, guide.width, guide.height);
     std::vector<float>().swap(map);
-    constexpr std::size_t kMost = 700u << 20;  // six half-edges each, numbered in 32 bits
+    constexpr std::size_t kMost = 700'000'000;  // six half-edges each, numbered in 32 bits
     if (pixels.size() > kMost)
         return Status::failure("more than 7e8 samples: choose a lower density");
     if (!go_on(0.4f))

@@ -20,7 +20,7 @@ enum class Control {
 };
 
 struct SamplingOptions {
-    double density = 1.0 / 3;    ///< largest fraction of the pixels kept, 0..1; fewer where the map is 0
+    double density = 1.0 / 3;    ///< largest fraction of the pixels kept, 0..1; less is kept where the map is 0
     Control control = Control::gradient;
     const float* map = nullptr;  ///< own control map: a value >= 0 per pixel, row-major; used instead of `control`
     ParallelFor parallel;        ///< threads to use; the result does not depend on them

@@ -15,9 +15,9 @@ namespace pimg {
 
 struct SimplifyOptions {
     Index base_faces = 128;                ///< triangles of the base mesh; 2 (the four corners) or more
-    const InitialMesh* initial = nullptr;  ///< mesh to start from (sampling.h); none: one vertex per pixel
     ParallelFor parallel;                  ///< threads to use; the result does not depend on them
     Progress progress;
+    const InitialMesh* initial = nullptr;  ///< mesh to start from (sampling.h); none: one vertex per pixel
 };
 
 /// What building returns besides the hierarchy.
