@@ -132,15 +132,17 @@ Status assemble(int width, int height, const Finest& finest, CollapseSequence&& 
     std::vector<Bands> b(std::size_t(sequence.channels));
     h.width = width;
     h.height = height;
+    std::vector<Index> number;
     {
         const CollapseSequence done = std::move(sequence);
         const std::vector<Index> by_order = sorted(done.records);
         const std::size_t names = finest.initial ? finest.initial->pixels.size() : h.mesh_pixels();
-        const std::vector<Index> number = number_names(names, done.base, done.records, by_order);
+        number = number_names(names, done.base, done.records, by_order);
         fill_base(done.base, number, h, b);
         fill_splits(done, by_order, number, h, b);
-        fill_pixels(finest, number, h);
     }
+    fill_pixels(finest, number, h);
+    std::vector<Index>().swap(number);
     for (std::size_t c = 0; c < b.size(); ++c)
         values_to_details(h, finest.guide.channels[c].samples, b[c]);
     const Level level = h.level_of_faces(base_faces);

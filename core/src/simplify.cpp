@@ -31,6 +31,7 @@ public:
         : m_mesh(std::move(mesh)), m_options(options), m_total(m_mesh.alive())
     {
         m_sequence.channels = m_mesh.more_channels + 1;
+        m_sequence.records.reserve(m_total);  // growing would need twice the memory for a moment
         m_stats.peak_bytes = m_mesh.bytes();
         pimg::run(options.parallel, m_mesh.tiles.size(),
                   [&](std::size_t i) { add_up_fans(m_mesh, m_mesh.tiles[i].first, m_mesh.tiles[i].last); });
@@ -175,6 +176,8 @@ Status simplify(const Guide& guide, const SimplifyOptions& options, Hierarchy& h
     Hierarchy shape;
     shape.width = guide.width;
     shape.height = guide.height;
+    if (options.initial && options.initial->twins.size() != options.initial->corners.size())
+        return Status::failure("the initial mesh has no twins");
     if (options.initial
         && (options.initial->width != shape.mesh_width() || options.initial->height != shape.mesh_height()))
         return Status::failure("the initial mesh is for a picture of another size");
@@ -188,6 +191,8 @@ Status simplify(const Guide& guide, const SimplifyOptions& options, Hierarchy& h
     CollapseSequence sequence;
     {
         Simplifier simplifier(options.initial ? WorkingMesh(on_mesh, *options.initial) : WorkingMesh(on_mesh), options);
+        if (options.initial)
+            std::vector<Index>().swap(options.initial->twins);
         if (!simplifier.run())
             return Status::failure("building was stopped");
         sequence = simplifier.take_sequence();

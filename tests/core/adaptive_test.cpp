@@ -169,8 +169,9 @@ TEST(Adaptive, StopsWhenAsked)
     InitialMesh initial;
     ASSERT_TRUE(sample(guide_of(p), {}, initial).ok());
     for (float at : { 0.1f, 0.6f, 0.95f }) {
+        InitialMesh copy = initial;
         SimplifyOptions options;
-        options.initial = &initial;
+        options.initial = &copy;
         options.progress = [=](float done) { return done < at; };
         Hierarchy h;
         std::vector<Bands> bands;

@@ -122,8 +122,9 @@ TEST(Delaunay, IsExactForTheWidestPicture)
         ASSERT_GT(mesh.vertices(), 20u);
         EXPECT_TRUE(is_triangulation(mesh));
         const std::vector<int> d = degrees(mesh);
-        if (*std::max_element(d.begin(), d.end()) < kMaxDegree)
+        if (*std::max_element(d.begin(), d.end()) < kMaxDegree) {
             EXPECT_EQ(violations(mesh), 0u);
+        }
     }
 }
 
