@@ -186,7 +186,7 @@ const std::vector<Option<BuildOptions>>& option_table<BuildOptions>()
         { &T::mesh, { "mesh", 0, 0, "", "full|adaptive", "a vertex for every pixel, or fewer: faster, still exact" } },
         { &T::density, { "density", 1e-6, 1, "", "", "share of the pixels an adaptive mesh keeps" } },
         { &T::control,
-          { "control", 0, 0, "", "", "what its density follows: gradient, curvature, or the brightness of an image file" } },
+          { "control", 0, 0, "", "", "what density follows: gradient, curvature, or an image file" } },
     };
     return table;
 }

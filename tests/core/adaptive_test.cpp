@@ -69,7 +69,7 @@ TEST(Adaptive, OtherChannelsAreExactToo)
     const Picture p = test::scene(120, 90);
     const Built b = build(guide_of(p), 0.25);
     const Picture noise = test::make("noise", 120, 90, [](int x, int y) { return test::noise(x, y, 7); });
-    const Picture ramp = test::make("ramp", 120, 90, [](int x, int y) { return 0.3f * x - 0.1f * y; });
+    const Picture ramp = test::make("ramp", 120, 90, [](int x, int y) { return 0.3f * float(x) - 0.1f * float(y); });
     std::vector<Bands> bands;
     ASSERT_TRUE(analyse(b.hierarchy, { noise.samples.data(), ramp.samples.data(), p.samples.data() }, bands).ok());
     std::vector<float> out(p.samples.size());
