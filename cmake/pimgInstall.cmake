@@ -22,3 +22,7 @@ endif()
 configure_file(cmake/pimg.pc.in pimg.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/pimg.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# What files of ours are, for file(1) and for desktops.
+install(FILES core/share/pimg-mime.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages RENAME pimg.xml)
+install(FILES core/share/pimg.magic DESTINATION ${CMAKE_INSTALL_DATADIR}/pimg)

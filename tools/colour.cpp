@@ -3,16 +3,12 @@
 
 #include <algorithm>
 
-#include <OpenImageIO/imagebufalgo.h>
-#include <OpenImageIO/imagebufalgo_util.h>
 #include <OpenImageIO/strutil.h>
 
 namespace pimgtool {
 
 namespace {
 
-using OIIO::ImageBuf;
-using OIIO::ROI;
 namespace Strutil = OIIO::Strutil;
 
 bool contains(const std::vector<std::string>& names, const std::string& name)
@@ -93,36 +89,6 @@ std::string display_space(const std::string& display, const std::string& view)
 {
     const char* name = colour_config().getDisplayViewColorSpaceName(display, view);
     return name && *name != '<' ? name : "";  // not "<USE_DISPLAY_NAME>"
-}
-
-ImageBuf srgb_encoded(const ImageBuf& src)
-{
-    ImageBuf dst = OIIO::ImageBufAlgo::copy(src, OIIO::TypeFloat);
-    const int alpha = dst.spec().alpha_channel;
-    const int depth = dst.spec().z_channel;
-    const int colours = std::min(dst.nchannels(), 3);  // OpenImageIO's rule for colour operations
-    OIIO::ImageBufAlgo::parallel_image(dst.roi(), 0, [&](ROI roi) {
-        for (ImageBuf::Iterator<float> p(dst, roi); !p.done(); ++p) {
-            // Colours are stored multiplied by alpha; the curve belongs on the colours themselves.
-            const float a = alpha >= 0 ? float(p[alpha]) : 1.0f;
-            const float scale = a > 0.0f ? a : 1.0f;
-            for (int c = 0; c < colours; ++c)
-                if (c != alpha && c != depth)
-                    p[c] = scale * OIIO::linear_to_sRGB(p[c] / scale);
-        }
-    });
-    declare_space(dst.specmod(), "sRGB");
-    return dst;
-}
-
-void declare_space(OIIO::ImageSpec& spec, const std::string& space)
-{
-    for (const char* stale : { "oiio:Gamma", "Exif:ColorSpace", "ICCProfile", "tiff:ColorSpace", "chromaticities" })
-        spec.erase_attribute(stale);
-    if (space.empty())
-        spec.erase_attribute("oiio:ColorSpace");
-    else
-        spec.attribute("oiio:ColorSpace", space);
 }
 
 }  // namespace pimgtool

@@ -5,7 +5,7 @@
 #include <string>
 
 #include <OpenImageIO/color.h>
-#include <OpenImageIO/imagebuf.h>
+#include <pimg/display.h>
 
 namespace pimgtool {
 
@@ -32,10 +32,7 @@ OIIO::ColorProcessorHandle display_transform(const std::string& display, const s
 /// The name of the space that transform leads to; empty if the configuration does not say.
 std::string display_space(const std::string& display, const std::string& view);
 
-/// The colour channels of a linear picture with the sRGB curve on them; alpha and other channels as they are.
-OIIO::ImageBuf srgb_encoded(const OIIO::ImageBuf& src);
-
-/// Makes metadata say which space the pixels are in now, "" for none that has a name.
-void declare_space(OIIO::ImageSpec& spec, const std::string& space);
+using pimg::declare_space;
+using pimg::srgb_encoded;
 
 }  // namespace pimgtool

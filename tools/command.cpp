@@ -49,34 +49,6 @@ std::string unknown_command(const std::string& name)
     return format("unknown operation \"{}\": {}", name, hint);
 }
 
-/// Splits ":key=value:key=value". A value in quotation marks may hold colons.
-bool split_keys(const std::string& text, Call& call, std::string& error)
-{
-    for (std::size_t at = 0; at < text.size();) {
-        ++at;  // the colon
-        const std::size_t equals = text.find_first_of("=:", at);
-        if (equals == at || equals == std::string::npos || text[equals] == ':') {
-            error = format("\"{}\": expected key=value", text.substr(at, text.find(':', at) - at));
-            return false;
-        }
-        std::size_t begin = equals + 1;
-        std::size_t end = text.find(':', begin);
-        std::size_t next = end;
-        if (begin < text.size() && (text[begin] == '"' || text[begin] == '\'')) {
-            const std::size_t closing = text.find(text[begin], begin + 1);
-            if (closing != std::string::npos && (closing + 1 == text.size() || text[closing + 1] == ':')) {
-                end = closing;
-                next = closing + 1;
-                ++begin;
-            }
-        }
-        const std::string value = text.substr(begin, end == std::string::npos ? end : end - begin);
-        call.keys.emplace_back(text.substr(at, equals - at), value);
-        at = std::min(next, text.size());
-    }
-    return true;
-}
-
 /// Takes the words a command needs from the arguments after `at`.
 bool take_words(const std::vector<std::string>& arguments, std::size_t& at, Call& call, std::string& error)
 {
@@ -142,6 +114,33 @@ bool parse_input(const std::string& filename, Program& program, std::string& err
 
 }  // namespace
 
+bool split_keys(const std::string& text, Call& call, std::string& error)
+{
+    for (std::size_t at = 0; at < text.size();) {
+        ++at;  // the colon
+        const std::size_t equals = text.find_first_of("=:", at);
+        if (equals == at || equals == std::string::npos || text[equals] == ':') {
+            error = format("\"{}\": expected key=value", text.substr(at, text.find(':', at) - at));
+            return false;
+        }
+        std::size_t begin = equals + 1;
+        std::size_t end = text.find(':', begin);
+        std::size_t next = end;
+        if (begin < text.size() && (text[begin] == '"' || text[begin] == '\'')) {
+            const std::size_t closing = text.find(text[begin], begin + 1);
+            if (closing != std::string::npos && (closing + 1 == text.size() || text[closing + 1] == ':')) {
+                end = closing;
+                next = closing + 1;
+                ++begin;
+            }
+        }
+        const std::string value = text.substr(begin, end == std::string::npos ? end : end - begin);
+        call.keys.emplace_back(text.substr(at, equals - at), value);
+        at = std::min(next, text.size());
+    }
+    return true;
+}
+
 const Command* find_command(const std::string& name)
 {
     const std::string bare = name.substr(0, name.find(':'));
@@ -163,9 +162,9 @@ bool parse(const std::vector<std::string>& arguments, Program& program, std::str
     }
     if (!program.dangling.empty())
         error = format("{} has no effect here: expected it before the -o it is meant for", program.dangling);
-    else if (program.inputs.empty())
+    else if (program.inputs.empty() && !program.informs)
         error = "nothing to do: expected an input file, operations and -o FILE; --help lists them";
-    else if (program.written.empty() && program.stats.empty() && !program.verbose)
+    else if (program.written.empty() && program.stats.empty() && !program.verbose && !program.informs)
         error = "nothing would be written: expected -o FILE, or --stats";
     return error.empty();
 }

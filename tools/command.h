@@ -36,6 +36,7 @@ struct Program {
     int pictures = 0;                          ///< on the stack after the steps so far
     std::string dangling;                      ///< an output setting that no -o has followed yet
     int threads = 0;                           ///< 0: one per core
+    bool informs = false;                      ///< something is printed that needs no pictures
     std::string stats;                         ///< how to print figures: text, json; empty: not
     bool verbose = false;
 };
@@ -62,6 +63,9 @@ const std::vector<CommandGroup>& command_table();
 
 /// The command of that name, with one or two dashes; null if there is none.
 const Command* find_command(const std::string& name);
+
+/// Splits ":key=value:key=value". A value in quotation marks may hold colons.
+bool split_keys(const std::string& text, Call& call, std::string& error);
 
 /// Checks `arguments` and turns them into a program. False with a line in `error` for anything that is wrong.
 bool parse(const std::vector<std::string>& arguments, Program& program, std::string& error);

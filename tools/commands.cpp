@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The table of all commands. To add a filter: one row, naming its options struct (whose table has the keys) and
 // its function; an operation of another kind has a row and a small function.
+#include <algorithm>
+#include <cstdio>
 #include <utility>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 #include <pimg/imagebufalgo.h>
@@ -10,6 +13,7 @@
 #include "colour.h"
 #include "command.h"
 #include "output.h"
+#include "pimg_file.h"
 
 namespace pimgtool {
 
@@ -236,9 +240,25 @@ bool channels(Session& session, const Words& words)
 
 // ---- files and settings -----------------------------------------------------------------------------------
 
+/// -o:profile=compact a.pimg, or the same as -o a.pimg:profile=compact. A file keeps the hierarchy unless told otherwise.
 bool output_file(const Call& call, Program& program, std::string& error)
 {
-    const std::string filename = call.words[0];
+    Call keys = call;
+    std::string filename = call.words[0];
+    const std::size_t colon = filename.rfind(".pimg:");
+    if (colon != std::string::npos) {
+        if (!split_keys(filename.substr(colon + 5), keys, error))
+            return false;
+        filename.erase(colon + 5);
+    }
+    pimg::io::WriteOptions options;
+    options.profile = "full";
+    if (!read_keys(keys, options, error))
+        return false;
+    if (!keys.keys.empty() && !has_pimg_extension(filename)) {
+        error = format("{} is for .pimg files, \"{}\" is none", keys.keys[0].first, filename);
+        return false;
+    }
     if (!can_write(filename, error)) {
         error = format("cannot write \"{}\": {}", filename, error);
         return false;
@@ -246,7 +266,35 @@ bool output_file(const Call& call, Program& program, std::string& error)
     program.written.push_back(filename);
     program.dangling.clear();
     program.steps.push_back({ call.command->name, [=](Session& session) {
-                                 return session.write(filename);
+                                 return session.write(filename, options);
+                             } });
+    return true;
+}
+
+std::vector<pimg::OptionInfo> output_keys()
+{
+    std::vector<pimg::OptionInfo> keys = pimg::describe_options<pimg::io::WriteOptions>();
+    for (pimg::OptionInfo& key : keys)
+        if (key.key == "profile")
+            key.default_value = "full";
+    return keys;
+}
+
+bool info(const Call& call, Program& program, std::string& error)
+{
+    const std::string filename = call.words[0];
+    const bool will_exist = std::count(program.written.begin(), program.written.end(), filename) > 0;
+    if (!will_exist && !OIIO::Filesystem::is_regular(filename)) {
+        error = format("cannot read \"{}\": no such file", filename);
+        return false;
+    }
+    program.informs = true;
+    program.steps.push_back({ call.command->name, [=](Session& session) {
+                                 std::string text;
+                                 if (!describe_file(filename, text))
+                                     return session.fail(text);
+                                 std::fputs(text.c_str(), stdout);
+                                 return true;
                              } });
     return true;
 }
@@ -361,7 +409,9 @@ CommandGroup output_group()
 {
     return { "Output",
              {
-                 { "-o", "FILE", "writes the top picture, which stays on the stack", 1, 0, nullptr, output_file },
+                 { "-o", "FILE", "writes the top picture, which stays on the stack; keys are for .pimg files", 1, 0,
+                   output_keys, output_file },
+                 setting("--info", "FILE", "prints what is in a .pimg file: windows, channels, sizes of its parts", info),
                  setting("-d", "TYPE",
                          "pixel type of the files that follow: uint8, uint16, half, float ...; else the input's",
                          pixel_type),

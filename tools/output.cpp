@@ -14,6 +14,7 @@
 #include <OpenImageIO/strutil.h>
 
 #include "colour.h"
+#include "pimg_file.h"
 
 namespace pimgtool {
 
@@ -170,7 +171,7 @@ bool can_write(const std::string& filename, std::string& error)
         error = format("no permission to write in directory \"{}\"", directory.empty() ? "." : directory);
     else if (Filesystem::is_directory(filename))
         error = "it is a directory";
-    else if (!ImageOutput::create(filename))
+    else if (!create_output(filename))
         error = format("no image format that OpenImageIO can write has the extension \".{}\"", extension);
     OIIO::geterror();  // said above in fewer words
     return error.empty();
@@ -179,7 +180,7 @@ bool can_write(const std::string& filename, std::string& error)
 bool write_picture(const OutputPicture& picture, const std::string& filename,
                    const std::function<void(float)>& progress, std::string& summary, std::string& error)
 {
-    const std::unique_ptr<ImageOutput> out = ImageOutput::create(filename);
+    const std::unique_ptr<ImageOutput> out = create_output(filename, picture.hierarchy);
     if (!out) {
         error = OIIO::geterror();
         return false;
@@ -201,7 +202,9 @@ bool write_picture(const OutputPicture& picture, const std::string& filename,
         pixels = srgb_encoded(*source);
         source = &pixels;
     }
-    const ImageSpec spec = file_spec(*source, picture.types, *out);
+    ImageSpec spec = file_spec(*source, picture.types, *out);
+    if (has_pimg_extension(filename))
+        pimg::io::add_hints(spec, picture.options);
     if (!write_pixels(*out, *source, file.name(), spec, progress, error) || !file.keep(error))
         return false;
     summary =

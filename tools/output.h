@@ -8,6 +8,9 @@
 #include <vector>
 
 #include <OpenImageIO/imagebuf.h>
+#include <pimg/hierarchy.h>
+
+#include "pimg_pvt.h"
 
 namespace pimgtool {
 
@@ -28,6 +31,8 @@ struct OutputPicture {
     const OIIO::ImageBuf& pixels;
     PixelTypes types;  ///< wanted; the format may know better
     bool encode_srgb;  ///< encode for display if the format stores whole numbers
+    const pimg::Hierarchy* hierarchy = nullptr;  ///< of `pixels`, for a .pimg file
+    pimg::io::WriteOptions options = {};         ///< of a .pimg file
 };
 
 /// The type `-d` may be given, UNKNOWN for any other word.

@@ -74,24 +74,19 @@ bool Session::read(const std::string& filename)
         return true;
     }
     const StageTimer timer(stats, Stage::read);
-    auto pixels = std::make_shared<OIIO::ImageBuf>(filename);
-    ProgressBar bar(label("reading", filename));
-    const auto show = [](void* data, float done) {
-        static_cast<ProgressBar*>(data)->show(done);
+    OIIO::ImageSpec stored;
+    const std::shared_ptr<OIIO::ImageBuf> pixels = read_pixels(filename, stored);
+    if (!pixels)
         return false;
-    };
-    // Forced: straight into memory of our own, in the file's type, and not through the shared image cache.
-    if (!pixels->read(0, 0, true, OIIO::TypeUnknown, show, &bar))
-        return fail(format("cannot read \"{}\": {}", filename, pixels->geterror()));
-    if (pixels->nsubimages() > 1)
-        say(format("{}: only the first of {} images is used", filename, pixels->nsubimages()));
 
     Picture picture;
     picture.name = filename;
-    picture.stored = pixel_types(pixels->nativespec());
-    picture.linear_light = holds_linear_light(pixels->nativespec());
+    picture.stored = pixel_types(stored);
+    picture.linear_light = holds_linear_light(stored);
     picture.pixels = pixels;
     picture.hierarchy = std::make_shared<LazyHierarchy>();
+    if (pimg::io::file_of(filename) == filename)
+        picture.hierarchy->stored = StoredHierarchy::open(filename);
     say(format("{}: {}, {:.2f} s", filename, describe(*pixels, picture.stored), timer.seconds()));
     stack.push_back(picture);
     if (again)
@@ -99,11 +94,51 @@ bool Session::read(const std::string& filename)
     return true;
 }
 
-bool Session::write(const std::string& filename)
+std::shared_ptr<OIIO::ImageBuf> Session::read_pixels(const std::string& filename, OIIO::ImageSpec& stored)
 {
+    ProgressBar bar(label("reading", filename));
+    const auto show = [](void* data, float done) {
+        static_cast<ProgressBar*>(data)->show(done);
+        return false;
+    };
+    if (const std::unique_ptr<OIIO::ImageInput> input = pimg_input(filename)) {
+        std::shared_ptr<OIIO::ImageBuf> pixels;
+        if (input->open(filename, stored)) {
+            OIIO::ImageSpec spec = stored;
+            spec.channelformats.clear();
+            spec.tile_width = spec.tile_height = 0;
+            pixels = std::make_shared<OIIO::ImageBuf>(spec);
+            if (input->read_image(0, 0, 0, spec.nchannels, spec.format, pixels->localpixels(), OIIO::AutoStride,
+                                  OIIO::AutoStride, OIIO::AutoStride, show, &bar))
+                return pixels;
+        }
+        fail(format("cannot read {}", input->geterror()));
+        return nullptr;
+    }
+    auto pixels = std::make_shared<OIIO::ImageBuf>(filename);
+    // Forced: straight into memory of our own, in the file's type, and not through the shared image cache.
+    if (!pixels->read(0, 0, true, OIIO::TypeUnknown, show, &bar)) {
+        fail(format("cannot read \"{}\": {}", filename, pixels->geterror()));
+        return nullptr;
+    }
+    if (pixels->nsubimages() > 1)
+        say(format("{}: only the first of {} images is used", filename, pixels->nsubimages()));
+    stored = pixels->nativespec();
+    return pixels;
+}
+
+bool Session::write(const std::string& filename, const pimg::io::WriteOptions& options)
+{
+    const pimg::Hierarchy* hierarchy = nullptr;
+    if (has_pimg_extension(filename) && options.profile == "full") {
+        const pimg::ProgressiveImage* image = hierarchy_of_top();
+        if (!image)
+            return false;
+        hierarchy = &image->hierarchy();
+    }
     const StageTimer timer(stats, Stage::write);
     const Picture& picture = top();
-    OutputPicture out { *picture.pixels, picture.stored, picture.linear_light && !output.raw };
+    OutputPicture out { *picture.pixels, picture.stored, picture.linear_light && !output.raw, hierarchy, options };
     if (output.type != OIIO::TypeUnknown)
         out.types = { output.type, {} };
     ProgressBar bar(label("writing", filename));
@@ -122,7 +157,7 @@ bool Session::build(const pimg::BuildOptions& options)
 {
     // Copies made earlier keep theirs.
     if (!same_options(top().hierarchy->options, options))
-        top().hierarchy = std::make_shared<LazyHierarchy>(LazyHierarchy { options, {} });
+        top().hierarchy = std::make_shared<LazyHierarchy>(LazyHierarchy { options, nullptr, {} });
     return hierarchy_of_top() != nullptr;
 }
 
@@ -136,13 +171,14 @@ const pimg::ProgressiveImage* Session::hierarchy_of_top()
         bar.show(done);
         return true;
     };
-    if (!lazy.image.build(*top().pixels, lazy.options, 0, show)) {
+    if (lazy.stored ? !lazy.stored->read(*top().pixels, lazy.options, lazy.image)
+                    : !lazy.image.build(*top().pixels, lazy.options, 0, show)) {
         fail(lazy.image.error());
         return nullptr;
     }
     const pimg::Hierarchy& hierarchy = lazy.image.hierarchy();
     stats.add(top().name, lazy.image);
-    say(format("{}: built {} vertices, {} splits, {:.2f} s", top().name, hierarchy.vertices(), hierarchy.levels(),
+    say(format("{}: {} {} vertices, {} splits, {:.2f} s", top().name, lazy.stored ? "read" : "built", hierarchy.vertices(), hierarchy.levels(),
                lazy.image.stats().simplify_seconds));
     return &lazy.image;
 }

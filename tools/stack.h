@@ -13,13 +13,15 @@
 #include <pimg/progressive_image.h>
 
 #include "output.h"
+#include "pimg_file.h"
 #include "stats.h"
 
 namespace pimgtool {
 
-/// A hierarchy to be built when first needed.
+/// A hierarchy to be built, or taken from its file, when first needed.
 struct LazyHierarchy {
     pimg::BuildOptions options;
+    std::shared_ptr<const StoredHierarchy> stored;  ///< of the file the picture came from, if it has one
     pimg::ProgressiveImage image;
 };
 
@@ -49,7 +51,8 @@ public:
     /// A file named several times is read and built once: announce() all reads before the first read().
     void announce(const std::string& filename) { ++m_reads_left[filename]; }
     bool read(const std::string& filename);
-    bool write(const std::string& filename);
+    /// `options` is for .pimg files.
+    bool write(const std::string& filename, const pimg::io::WriteOptions& options);
 
     /// Builds the hierarchy of the top picture now, with the given options.
     bool build(const pimg::BuildOptions& options);
@@ -76,6 +79,7 @@ public:
 
 private:
     const pimg::ProgressiveImage* hierarchy_of_top();
+    std::shared_ptr<OIIO::ImageBuf> read_pixels(const std::string& filename, OIIO::ImageSpec& stored);
 
     std::map<std::string, int> m_reads_left;
     std::map<std::string, Picture> m_kept;  ///< pictures that will be read again

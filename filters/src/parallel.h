@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// OpenImageIO's thread pool for the engine and for loops over rows.
+// Loops over rows in OpenImageIO's thread pool.
 #pragma once
 
-#include <pimg/types.h>
+#include <functional>
+
+#include <pimg/threads.h>
 
 namespace pimg {
-
-/// Loops that use up to `nthreads` threads of OpenImageIO's pool; 0 = its "threads" attribute.
-ParallelFor pool_loop(int nthreads);
 
 /// Calls body(y) for every y in [begin, end), several rows to a task.
 void for_rows(const ParallelFor& parallel, int begin, int end, const std::function<void(int)>& body);

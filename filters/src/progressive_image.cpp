@@ -133,7 +133,8 @@ bool ProgressiveImage::Data::find_initial_mesh(const Guide& guide, const Paralle
     return status.ok();
 }
 
-bool ProgressiveImage::Data::simplify_guide(const ParallelFor& parallel, const Progress& progress, std::string& error)
+bool ProgressiveImage::Data::hierarchy_of_guide(const MakeHierarchy& make_hierarchy, const ParallelFor& parallel,
+                                                std::string& error)
 {
     Stopwatch watch;
     specials = repair(source, colour, parallel);
@@ -150,12 +151,27 @@ bool ProgressiveImage::Data::simplify_guide(const ParallelFor& parallel, const P
     }
     stats.guide_seconds = watch.lap();
 
+    const Status status = make_hierarchy(channels);
+    error = status.error();
+    stats.simplify_seconds = watch.lap() - stats.sample_seconds;
+    if (m_log != nullptr && status) {
+        m_log->luminance.guide = std::move(channels[0]);
+        m_log->bands = &guide_bands[0];
+    }
+    return status.ok();
+}
+
+Status ProgressiveImage::Data::simplify_guide(const std::vector<Raster>& channels, const ParallelFor& parallel,
+                                              const Progress& progress)
+{
     Guide guide { channels[0].width, channels[0].height, {} };
     for (const Raster& channel : channels)
         guide.channels.push_back({ channel.samples.data() });
+    Stopwatch watch;
     InitialMesh initial;
+    std::string error;
     if (!find_initial_mesh(guide, parallel, progress, initial, error))
-        return false;
+        return Status::failure(error);
     stats.sample_seconds = watch.lap();
 
     SimplifyOptions simplify_options;
@@ -164,14 +180,24 @@ bool ProgressiveImage::Data::simplify_guide(const ParallelFor& parallel, const P
     simplify_options.progress = progress;
     if (initial.vertices() > 0)
         simplify_options.initial = &initial;
-    const Status status = simplify(guide, simplify_options, hierarchy, guide_bands, &stats.engine);
-    error = status.error();
-    stats.simplify_seconds = watch.lap();
-    if (m_log != nullptr && status) {
-        m_log->luminance.guide = std::move(channels[0]);
-        m_log->bands = &guide_bands[0];
-    }
-    return status.ok();
+    return simplify(guide, simplify_options, hierarchy, guide_bands, &stats.engine);
+}
+
+Status ProgressiveImage::Data::adopt(const std::vector<Raster>& channels, const StoredHierarchy& stored)
+{
+    Hierarchy shape;
+    shape.width = spec.width, shape.height = spec.height;
+    std::vector<std::vector<float>> samples;
+    std::vector<const float*> pointers;
+    for (const Raster& channel : channels)
+        samples.push_back(to_mesh_pixels(shape, channel.samples.data()));
+    for (const std::vector<float>& channel : samples)
+        pointers.push_back(channel.data());
+    const Status status = stored(pointers, hierarchy, guide_bands);
+    if (status
+        && (hierarchy.width != spec.width || hierarchy.height != spec.height || guide_bands.size() != channels.size()))
+        return Status::failure("the stored hierarchy is not one of this picture");
+    return status;
 }
 
 const LogBands* ProgressiveImage::Data::log_bands(const ParallelFor& parallel, std::string& error)
@@ -258,6 +284,24 @@ std::size_t ProgressiveImage::Data::memory()
 
 bool ProgressiveImage::build(const OIIO::ImageBuf& src, const BuildOptions& options, int nthreads, Progress progress)
 {
+    return make(src, options, [&](Data& data, std::string& error) {
+        const ParallelFor parallel = pool_loop(nthreads);
+        const auto simplify = [&](const auto& guide) { return data.simplify_guide(guide, parallel, progress); };
+        return data.hierarchy_of_guide(simplify, parallel, error);
+    });
+}
+
+bool ProgressiveImage::adopt(const OIIO::ImageBuf& src, const StoredHierarchy& stored, const BuildOptions& options,
+                             int nthreads)
+{
+    return make(src, options, [&](Data& data, std::string& error) {
+        return data.hierarchy_of_guide([&](const auto& guide) { return data.adopt(guide, stored); },
+                                       pool_loop(nthreads), error);
+    });
+}
+
+bool ProgressiveImage::make(const OIIO::ImageBuf& src, const BuildOptions& options, const MakeHierarchy& make_hierarchy)
+{
     m_data.reset();
     m_error.clear();
     try {
@@ -266,7 +310,7 @@ bool ProgressiveImage::build(const OIIO::ImageBuf& src, const BuildOptions& opti
         Stopwatch watch;
         if (check_options(options, m_error) && data->read(src, m_error)) {
             data->stats.read_seconds = watch.lap();
-            if (data->simplify_guide(pool_loop(nthreads), progress, m_error))
+            if (make_hierarchy(*data, m_error))
                 m_data = std::move(data);
         }
     } catch (const std::bad_alloc&) {

@@ -46,11 +46,14 @@ struct ProgressiveImage::Data {
 
     std::size_t memory();
 
-    /// The steps of build().
+    /// The steps of build() and adopt(). `make_hierarchy` fills in the hierarchy and the bands of the guide.
+    using MakeHierarchy = std::function<Status(const std::vector<Raster>& guide)>;
     bool read(const OIIO::ImageBuf& src, std::string& error);
+    bool hierarchy_of_guide(const MakeHierarchy& make_hierarchy, const ParallelFor& parallel, std::string& error);
+    Status simplify_guide(const std::vector<Raster>& guide, const ParallelFor& parallel, const Progress& progress);
+    Status adopt(const std::vector<Raster>& guide, const StoredHierarchy& stored);
     bool find_initial_mesh(const Guide& guide, const ParallelFor& parallel, const Progress& progress, InitialMesh& mesh,
                            std::string& error) const;
-    bool simplify_guide(const ParallelFor& parallel, const Progress& progress, std::string& error);
 
 private:
     bool are_channels_the_guide() const;

@@ -2,6 +2,7 @@
 // A picture with its hierarchy: built once, filtered many times.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -47,12 +48,21 @@ struct BuildStats {
 /// Colour with alpha is worked on as stored, that is associated (premultiplied), like everywhere in OpenImageIO.
 class ProgressiveImage {
 public:
+    /// Gives a hierarchy that was built before and, on it, the bands of channels of one finite value per mesh pixel each; such as
+    /// Decoder::read_hierarchy().
+    using StoredHierarchy
+        = std::function<Status(const std::vector<const float*>& channels, Hierarchy&, std::vector<Bands>&)>;
+
     ProgressiveImage() = default;
 
     /// Builds from `src` (any pixel type, data window and channels; not deep, not a volume). nthreads as everywhere in
     /// OpenImageIO: 0 = the "threads" attribute; the result does not depend on it. On failure returns
     /// false and error() says why.
     bool build(const OIIO::ImageBuf& src, const BuildOptions& options = {}, int nthreads = 0, Progress progress = {});
+
+    /// The same with a stored hierarchy of this very picture: nothing is built, and options.base has no effect.
+    bool adopt(const OIIO::ImageBuf& src, const StoredHierarchy& stored, const BuildOptions& options = {},
+               int nthreads = 0);
 
     bool initialized() const { return m_data != nullptr; }
     const std::string& error() const { return m_error; }
@@ -70,6 +80,9 @@ public:
     const std::shared_ptr<Data>& data() const { return m_data; }
 
 private:
+    using MakeHierarchy = std::function<bool(Data&, std::string& error)>;
+    bool make(const OIIO::ImageBuf& src, const BuildOptions& options, const MakeHierarchy& make_hierarchy);
+
     std::shared_ptr<Data> m_data;
     std::string m_error;
 };

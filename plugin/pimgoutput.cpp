@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes .pimg files. The picture is collected as it comes, encoded with its last scanline or tile, so that the call
+// that completes it reports whatever goes wrong, and appears under its name whole or not at all.
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <exception>
+#include <new>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/strutil.h>
+
+#include <pimg/progressive_image.h>
+#include <pimg/threads.h>
+
+#include "pimg_pvt.h"
+
+namespace pimg {
+namespace io {
+
+namespace {
+
+using OIIO::ImageSpec;
+using OIIO::stride_t;
+using OIIO::TypeDesc;
+namespace Filesystem = OIIO::Filesystem;
+
+/// A file that takes the place of its target when it is complete.
+class NewFile {
+public:
+    /// Creates it beside the target, or opens the target if that is a device or a pipe.
+    bool open(const std::string& target)
+    {
+        struct stat there = {};
+        const bool exists = ::stat(target.c_str(), &there) == 0;
+        m_target = exists ? resolved(target) : target;
+        if (exists && S_ISDIR(there.st_mode))
+            return fail(EISDIR);
+        if (exists && ::access(m_target.c_str(), W_OK) != 0)
+            return fail(errno);
+        if (exists && !S_ISREG(there.st_mode)) {
+            m_fd = ::open(m_target.c_str(), O_WRONLY | O_CLOEXEC);
+            return m_fd >= 0 || fail(errno);
+        }
+        m_name = Filesystem::unique_path(m_target + ".%%%%%%%%.temp");
+        m_fd = ::open(m_name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (m_fd < 0) {
+            const int code = errno;
+            m_name.clear();
+            return fail(code);
+        }
+        if (exists)
+            (void)!::fchmod(m_fd, there.st_mode & 07777);
+        return true;
+    }
+
+    bool write(const std::uint8_t* data, std::size_t size)
+    {
+        while (size > 0) {
+            const ssize_t n = ::write(m_fd, data, std::min(size, std::size_t(1) << 30));
+            if (n < 0 && errno == EINTR)
+                continue;
+            if (n <= 0)
+                return fail(n < 0 ? errno : ENOSPC);
+            data += n;
+            size -= std::size_t(n);
+        }
+        return true;
+    }
+
+    /// On disk, under its name.
+    bool keep()
+    {
+        if (!m_name.empty() && ::fsync(m_fd) != 0)
+            return fail(errno);
+        if (::close(std::exchange(m_fd, -1)) != 0)
+            return fail(errno);
+        if (!m_name.empty() && ::rename(m_name.c_str(), m_target.c_str()) != 0)
+            return fail(errno);
+        m_name.clear();
+        return true;
+    }
+
+    ~NewFile()
+    {
+        if (m_fd >= 0)
+            ::close(m_fd);
+        if (!m_name.empty())
+            ::unlink(m_name.c_str());
+    }
+
+    const std::string& error() const { return m_error; }
+
+private:
+    /// Where a chain of links ends.
+    static std::string resolved(const std::string& name)
+    {
+        const std::unique_ptr<char, decltype(&std::free)> path(::realpath(name.c_str(), nullptr), &std::free);
+        return path ? path.get() : name;
+    }
+    bool fail(int code)
+    {
+        m_error = std::strerror(code);
+        return false;
+    }
+
+    std::string m_target, m_name, m_error;
+    int m_fd = -1;
+};
+
+class PimgOutput final : public OIIO::ImageOutput {
+public:
+    explicit PimgOutput(const Hierarchy* hierarchy) : m_given(hierarchy) {}
+    ~PimgOutput() override { close(); }
+
+    const char* format_name() const override { return "pimg"; }
+    int supports(OIIO::string_view feature) const override;
+    using ImageOutput::open;
+    bool open(const std::string& name, const ImageSpec& spec, OpenMode mode) override;
+    bool close() override;
+    using ImageOutput::write_scanline;
+    bool write_scanline(int y, int z, TypeDesc format, const void* data, stride_t xstride) override;
+    using ImageOutput::write_tile;
+    bool write_tile(int x, int y, int z, TypeDesc format, const void* data, stride_t xstride, stride_t ystride,
+                    stride_t zstride) override;
+
+private:
+    bool check(const ImageSpec& spec);
+    bool read_hints();
+    bool accept(std::size_t part);
+    bool finish();
+    bool build_hierarchy(ProgressiveImage& progressive);
+    bool store(const std::vector<std::uint8_t>& bytes);
+    template<class Body> bool guarded(Body&& body);
+
+    const Hierarchy* m_given;
+    std::string m_name;
+    WriteOptions m_options;
+    std::vector<std::uint8_t> m_pixels;  ///< packed native samples, row by row
+    std::vector<bool> m_here;            ///< which scanlines or tiles have come
+    std::size_t m_missing = 0;           ///< how many have not
+    unsigned int m_dither = 0;
+    bool m_open = false;
+    std::vector<unsigned char> m_scratch;
+};
+
+/// No exception passes OpenImageIO's virtual functions.
+template<class Body>
+bool PimgOutput::guarded(Body&& body)
+{
+    try {
+        return body();
+    } catch (const std::bad_alloc&) {
+        errorfmt("pimg: not enough memory for {}", m_name);
+    } catch (const std::exception& exception) {
+        errorfmt("pimg: {}", exception.what());
+    }
+    return false;
+}
+
+int PimgOutput::supports(OIIO::string_view feature) const
+{
+    for (const char* name : { "alpha", "nchannels", "channelformats", "tiles", "ioproxy", "arbitrary_metadata", "exif",
+                              "iptc", "displaywindow", "origin", "negativeorigin", "random_access" })
+        if (feature == name)
+            return true;
+    return false;
+}
+
+bool PimgOutput::check(const ImageSpec& spec)
+{
+    constexpr int kSide = 1 << 20, kFar = 1 << 30;
+    const auto far_away = [](int v) { return v < -kFar || v > kFar; };
+    if (spec.deep)
+        errorfmt("pimg: deep images are not supported");
+    else if (spec.depth > 1)
+        errorfmt("pimg: volumes are not supported");
+    else if (spec.width < 1 || spec.height < 1 || spec.width > kSide || spec.height > kSide)
+        errorfmt("pimg: a picture of {} x {} pixels: sides must be 1 to {}", spec.width, spec.height, kSide);
+    else if (spec.full_width > kSide || spec.full_height > kSide)
+        errorfmt("pimg: a display window of {} x {} pixels: sides must be 1 to {}", spec.full_width, spec.full_height, kSide);
+    else if (spec.nchannels < 1 || spec.nchannels > 1024)
+        errorfmt("pimg: {} channels: expected 1 to 1024", spec.nchannels);
+    else if (far_away(spec.x) || far_away(spec.y) || far_away(spec.full_x) || far_away(spec.full_y))
+        errorfmt("pimg: the picture is more than {} pixels from the origin", kFar);
+    else
+        return true;
+    return false;
+}
+
+/// `pimg:key` attributes, and OpenImageIO's `compression`: "compact" or "full", perhaps followed by ":effort". What
+/// other formats call compression is none of ours.
+bool PimgOutput::read_hints()
+{
+    m_options = {};
+    std::string error;
+    const auto words = OIIO::Strutil::splits(m_spec.get_string_attribute("compression"), ":");
+    if (!words.empty() && (words[0] == "compact" || words[0] == "full")) {
+        m_options.profile = words[0];
+        if (words.size() > 1 && !set_option(m_options, "effort", words[1], error)) {
+            errorfmt("pimg: compression \"{}\": {}", m_spec.get_string_attribute("compression"), error);
+            return false;
+        }
+    }
+    for (const OIIO::ParamValue& hint : m_spec.extra_attribs) {
+        const std::string name = hint.name().string();
+        if (!OIIO::Strutil::istarts_with(name, "pimg:"))
+            continue;
+        const std::string key = OIIO::Strutil::lower(name.substr(5));
+        for (const Option<WriteOptions>& option : option_table<WriteOptions>())
+            if (key == option.rule.key && !set_option(m_options, key, hint_text(hint), error)) {
+                errorfmt("pimg: {}", error);
+                return false;
+            }
+    }
+    return true;
+}
+
+bool PimgOutput::open(const std::string& name, const ImageSpec& spec, OpenMode mode)
+{
+    if (mode != Create) {
+        errorfmt("pimg: files hold one image: no {} can be added", mode == AppendMIPLevel ? "MIP level" : "subimage");
+        return false;
+    }
+    close();
+    return guarded([&] {
+        m_name = name;
+        m_spec = spec;
+        if (!check(spec) || !read_hints())
+            return false;
+        m_spec.set_format(stored_type(spec.format));
+        m_spec.channelformats.clear();
+        if (int(spec.channelformats.size()) == spec.nchannels)
+            for (const TypeDesc& format : spec.channelformats)
+                m_spec.channelformats.push_back(stored_type(format));
+        m_spec.depth = 1;
+        if (m_spec.full_width < 1 || m_spec.full_height < 1) {
+            m_spec.full_x = m_spec.x, m_spec.full_y = m_spec.y;
+            m_spec.full_width = m_spec.width, m_spec.full_height = m_spec.height;
+        }
+        if (m_spec.get_int_attribute("oiio:BitsPerSample") >= int(m_spec.format.size()) * 8)
+            m_spec.erase_attribute("oiio:BitsPerSample");
+        m_dither = m_spec.format == TypeDesc::UINT8 ? unsigned(m_spec.get_int_attribute("oiio:dither")) : 0;
+
+        ioproxy_retrieve_from_config(m_spec);
+        NewFile probe;  // that there can be one is known before the work, and nothing is left behind by it
+        if (!ioproxy() && !probe.open(name)) {
+            errorfmt("Could not open \"{}\": {}", name, probe.error());
+            return false;
+        }
+        m_pixels.resize(m_spec.image_bytes(true));
+        const bool tiled = m_spec.tile_width > 0 && m_spec.tile_height > 0;
+        const auto parts = [](int size, int part) { return std::size_t(size + part - 1) / std::size_t(part); };
+        m_missing = tiled ? parts(m_spec.width, m_spec.tile_width) * parts(m_spec.height, m_spec.tile_height)
+                          : std::size_t(m_spec.height);
+        m_here.assign(m_missing, false);
+        return m_open = true;
+    });
+}
+
+bool PimgOutput::close()
+{
+    const bool complete = !m_open || m_missing == 0;
+    if (!complete)
+        errorfmt("pimg: {} of {} {} were never written: no file was made", m_missing, m_here.size(),
+                 m_spec.tile_width > 0 ? "tiles" : "scanlines");
+    m_open = false;
+    std::vector<std::uint8_t>().swap(m_pixels);
+    m_here.clear();
+    ioproxy_clear();
+    return complete;
+}
+
+bool PimgOutput::write_scanline(int y, int z, TypeDesc format, const void* data, stride_t xstride)
+{
+    return guarded([&] {
+        if (!m_open || m_pixels.empty() || m_spec.tile_width > 0 || y < m_spec.y || y >= m_spec.y + m_spec.height) {
+            errorfmt("pimg: scanline {} cannot be written now", y);
+            return false;
+        }
+        const void* native = to_native_scanline(format, data, xstride, m_scratch, m_dither, y, z);
+        const std::size_t row = std::size_t(y - m_spec.y), bytes = m_spec.scanline_bytes(true);
+        std::memcpy(m_pixels.data() + row * bytes, native, bytes);
+        return accept(row);
+    });
+}
+
+bool PimgOutput::write_tile(int x, int y, int z, TypeDesc format, const void* data, stride_t xstride, stride_t ystride,
+                            stride_t zstride)
+{
+    return guarded([&] {
+        const int across = m_spec.tile_width, down = m_spec.tile_height;
+        const int left = x - m_spec.x, top = y - m_spec.y;
+        if (!m_open || m_pixels.empty() || across < 1 || left < 0 || top < 0 || left >= m_spec.width
+            || top >= m_spec.height || left % across != 0 || top % down != 0) {
+            errorfmt("pimg: tile ({}, {}) cannot be written now", x, y);
+            return false;
+        }
+        const void* native = to_native_tile(format, data, xstride, ystride, zstride, m_scratch, m_dither, x, y, z);
+        const std::size_t pixel = m_spec.pixel_bytes(true), row = m_spec.scanline_bytes(true);
+        const int width = std::min(across, m_spec.width - left), height = std::min(down, m_spec.height - top);
+        for (int i = 0; i < height; ++i)
+            std::memcpy(m_pixels.data() + std::size_t(top + i) * row + std::size_t(left) * pixel,
+                        static_cast<const char*>(native) + std::size_t(i) * std::size_t(across) * pixel,
+                        std::size_t(width) * pixel);
+        const int columns = (m_spec.width + across - 1) / across;
+        return accept(std::size_t(top / down) * std::size_t(columns) + std::size_t(left / across));
+    });
+}
+
+bool PimgOutput::accept(std::size_t part)
+{
+    m_missing -= m_here[part] ? 0 : 1;
+    m_here[part] = true;
+    if (m_missing > 0)
+        return true;
+    const bool stored = finish();
+    std::vector<std::uint8_t>().swap(m_pixels);
+    return stored;
+}
+
+/// The hierarchy the filters would build, rather than the codec's own: a full file is kept for them.
+bool PimgOutput::build_hierarchy(ProgressiveImage& progressive)
+{
+    ImageSpec spec = m_spec;
+    spec.tile_width = spec.tile_height = 0;
+    spec.channelformats.clear();
+    OIIO::ImageBuf picture(spec);
+    const std::size_t pixel = m_spec.pixel_bytes(true);
+    for (int c = 0; c < m_spec.nchannels; ++c) {
+        OIIO::ROI channel = picture.roi();
+        channel.chbegin = c, channel.chend = c + 1;
+        picture.set_pixels(channel, m_spec.channelformat(c), m_pixels.data() + m_spec.pixel_bytes(0, c, true),
+                           stride_t(pixel), stride_t(m_spec.scanline_bytes(true)));
+    }
+    if (progressive.build(picture, {}, threads()))
+        return true;
+    errorfmt("pimg: {}", progressive.error());
+    return false;
+}
+
+bool PimgOutput::finish()
+{
+    EncodeOptions options;
+    options.profile = m_options.profile == "full" ? Profile::full : Profile::compact;
+    options.vertices = m_options.vertices;
+    options.effort = m_options.effort;
+    options.tile = std::uint32_t(m_options.tile);
+    options.parallel = pool_loop(threads());
+    options.hierarchy = m_given;
+    ProgressiveImage progressive;
+    if (options.profile == Profile::full && !m_given) {
+        if (!build_hierarchy(progressive))
+            return false;
+        options.hierarchy = &progressive.hierarchy();
+    }
+    const PictureDesc desc = to_desc(m_spec);
+    std::vector<std::uint8_t> bytes;
+    const Status status = encode(desc, interleaved(desc, static_cast<const void*>(m_pixels.data())), options, bytes);
+    if (!status) {
+        errorfmt("{}", status.error());
+        return false;
+    }
+    return store(bytes);
+}
+
+bool PimgOutput::store(const std::vector<std::uint8_t>& bytes)
+{
+    if (Filesystem::IOProxy* proxy = ioproxy()) {
+        if (proxy->write(bytes.data(), bytes.size()) == bytes.size())
+            return true;
+        errorfmt("pimg: could not write \"{}\": {}", m_name, proxy->error());
+        return false;
+    }
+    NewFile file;
+    if (file.open(m_name) && file.write(bytes.data(), bytes.size()) && file.keep())
+        return true;
+    errorfmt("pimg: could not write \"{}\": {}", m_name, file.error());
+    return false;
+}
+
+}  // namespace
+
+std::unique_ptr<OIIO::ImageOutput> make_output(const Hierarchy* hierarchy)
+{
+    return std::make_unique<PimgOutput>(hierarchy);
+}
+
+}  // namespace io
+}  // namespace pimg
