@@ -237,7 +237,7 @@ void SequenceReader::finish(Hierarchy& h, std::vector<Bands>& bands)
     }
     h = std::move(m_h);
     for (Bands& b : m_bands)
-        values_to_details(h, b);
+        values_to_details(h, nullptr, b);  // every pixel is a vertex: no residual
     bands = std::move(m_bands);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <pimg/progressive_image.h>
+#include <pimg/sampling.h>
 
 #include "guide.h"
 
@@ -51,6 +52,8 @@ struct ProgressiveImage::Data {
     bool hierarchy_of_guide(const MakeHierarchy& make_hierarchy, const ParallelFor& parallel, std::string& error);
     Status simplify_guide(const std::vector<Raster>& guide, const ParallelFor& parallel, const Progress& progress);
     Status adopt(const std::vector<Raster>& guide, const StoredHierarchy& stored);
+    bool find_initial_mesh(const Guide& guide, const ParallelFor& parallel, const Progress& progress, InitialMesh& mesh,
+                           std::string& error) const;
 
 private:
     bool are_channels_the_guide() const;

@@ -133,7 +133,7 @@ TEST(Plugin, KeepsMetadataOfEveryType)
     write(noise(spec), "metadata.pimg");
     const auto in = open("metadata.pimg");
     for (std::size_t i = 0; i < count; ++i) {
-        const OIIO::ParamValue& wanted = spec.extra_attribs[i];
+        const OIIO::ParamValue& wanted = spec.extra_attribs[int(i)];
         const OIIO::ParamValue* found = in->spec().find_attribute(wanted.name());
         ASSERT_TRUE(found) << wanted.name();
         ASSERT_EQ(found->type(), wanted.type()) << wanted.name();
@@ -291,8 +291,9 @@ TEST(Plugin, CanBeReopenedAndClosedTwice)
         EXPECT_FALSE(in->geterror().empty());
         ASSERT_TRUE(in->open("again.pimg", spec)) << in->geterror();
         expect_same(picture, *in);
-        if (i != 1)
+        if (i != 1) {
             EXPECT_TRUE(in->close());
+        }
     }
     EXPECT_TRUE(in->close());
     EXPECT_TRUE(in->close());
@@ -442,8 +443,9 @@ TEST(Plugin, NoticesFlippedBits)
         std::vector<unsigned char> flipped = file;
         flipped[i] = std::uint8_t(flipped[i] ^ (1u << i % 8));
         std::vector<std::uint8_t> pixels;
-        if (reads(flipped, pixels))
+        if (reads(flipped, pixels)) {
             EXPECT_TRUE(pixels == picture.pixels) << i;
+        }
     }
 }
 
