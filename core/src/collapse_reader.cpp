@@ -75,6 +75,7 @@ private:
     std::vector<std::vector<float>> m_values;
     std::vector<Bands> m_bands;
     std::vector<Index> m_alive;
+    std::vector<Index> m_batch;  ///< t of each collapse of the batch at hand
     std::vector<Index> m_born;  ///< u of each collapse
     SymbolReader m_gap, m_choice, m_x, m_y;
     std::uint32_t m_shift = 0;
@@ -161,10 +162,22 @@ bool SequenceReader::read_batch(ByteReader& heads)
         return false;
     m_cost = cost;
     const std::uint32_t density = class_of(std::uint32_t(m_alive.size() / count));
+    m_batch.clear();
     std::size_t at = 0;
     for (std::uint64_t i = 0; i < count; ++i, ++at) {
         at += m_gap.next(density);
-        if (at >= m_alive.size() || !read_collapse(m_alive[at]))
+        if (at >= m_alive.size())
+            return false;
+        m_batch.push_back(m_alive[at]);
+    }
+    // Where it goes is known well ahead: memory need not be waited for.
+    constexpr std::size_t kFar = 12, kNear = 5;
+    for (std::size_t i = 0; i < m_batch.size(); ++i) {
+        if (i + kFar < m_batch.size())
+            m_mesh.prefetch(m_batch[i + kFar]);
+        if (i + kNear < m_batch.size())
+            m_mesh.prefetch_ring(m_batch[i + kNear]);
+        if (!read_collapse(m_batch[i]))
             return false;
     }
     return true;

@@ -13,7 +13,7 @@ namespace pimg {
 
 namespace {
 
-constexpr double kBatchShare = 0.025;             ///< of the vertices left, per batch
+constexpr double kBatchShare = 0.03;             ///< of the vertices left, per batch
 constexpr std::size_t kChunkCollapses = 1 << 20;
 
 struct Collapse {

@@ -60,6 +60,13 @@ bool is_known(const ChunkHead& head)
     return false;
 }
 
+/// Channels of a tile that are decoded together.
+struct TileGroup {
+    std::vector<std::vector<std::int32_t>> values, mesh;
+    std::vector<std::vector<std::uint16_t>> sizes;
+    std::vector<std::uint16_t> before;  ///< sizes of the channel before the first
+};
+
 /// The mesh layer as far as the file has it.
 struct LayerState {
     MeshLayer layer;
@@ -109,13 +116,15 @@ struct Decoder::File {
     Status read_layer(double share, MeshLayer& layer) const;
     Status shared_layer(std::shared_ptr<const LayerState>& state) const;
     Status tile(std::uint32_t column, std::uint32_t row, const std::vector<Plane>& planes) const;
-    Status tile_plane(ByteReader* in, const SamplePoints& points, std::uint32_t column, std::uint32_t row, std::size_t c,
-                      const TilePlane& plane) const;
+    Status show(const SamplePoints& points, std::uint32_t column, std::uint32_t row, std::size_t c,
+                std::vector<std::int32_t>& samples) const;
+    Status read_group(ByteReader& in, const SamplePoints& points, std::uint32_t column, std::uint32_t row,
+                      std::size_t first, TileGroup& group) const;
     void finish(std::vector<std::vector<std::int32_t>>& group, std::size_t first, std::uint32_t width,
                 std::uint32_t height, bool exact, const std::vector<Plane>& planes) const;
     std::size_t group_size(std::size_t first) const
     {
-        return first == 0 && Transform(head.transform) != Transform::none ? 3 : 1;
+        return std::min<std::size_t>(TilePlaneReader::kLanes, desc.channels.size() - first);
     }
 };
 
@@ -309,28 +318,53 @@ Status Decoder::File::shared_layer(std::shared_ptr<const LayerState>& state) con
     return layer_status;
 }
 
-/// One channel of a tile, from `in` or, where that is nullptr, from the mesh layer.
-Status Decoder::File::tile_plane(ByteReader* in, const SamplePoints& points, std::uint32_t column, std::uint32_t row,
-                                 std::size_t c, const TilePlane& plane) const
+/// One channel of a tile as the mesh layer shows it.
+Status Decoder::File::show(const SamplePoints& points, std::uint32_t column, std::uint32_t row, std::size_t c,
+                           std::vector<std::int32_t>& samples) const
 {
-    TilePlane with = plane;
-    std::vector<std::int32_t> mesh;
-    if (!in || tile_plane_uses_gouraud(*in)) {
-        std::shared_ptr<const LayerState> state;
-        const Status status = shared_layer(state);
-        if (!status)
-            return status;
-        std::int32_t* to = plane.values;
-        if (in) {
-            mesh.resize(plane.pixels());
-            to = mesh.data();
-            with.gouraud = to;
-        }
+    std::shared_ptr<const LayerState> state;
+    const Status status = shared_layer(state);
+    if (status) {
+        samples.resize(points.xs.size() * points.ys.size());
         fill(state->layer.mesh, state->grid.triangles(), state->grid.at(column, row), state->layer.values[c],
-             mesh_shift(desc.channels[c].type), points, to);
+             mesh_shift(desc.channels[c].type), points, samples.data());
     }
-    if (in && !read_tile_plane(*in, with))
+    return status;
+}
+
+/// Channels first ... of a tile, exactly.
+Status Decoder::File::read_group(ByteReader& in, const SamplePoints& points, std::uint32_t column, std::uint32_t row,
+                                 std::size_t first, TileGroup& group) const
+{
+    const auto bad = [&] {
         return Status::failure("pimg: tile " + std::to_string(row * columns() + column) + " is damaged");
+    };
+    const std::size_t count = group.values.size();
+    TilePlaneReader readers[TilePlaneReader::kLanes];
+    TilePlane planes[TilePlaneReader::kLanes];
+    group.mesh.resize(count);
+    group.sizes.resize(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        TilePlane& plane = planes[k];
+        plane.width = int(points.xs.size());
+        plane.height = int(points.ys.size());
+        if (!readers[k].open(in, plane.pixels()))
+            return bad();
+        if (readers[k].uses_gouraud()) {
+            const Status status = show(points, column, row, first + k, group.mesh[k]);
+            if (!status)
+                return status;
+            plane.gouraud = group.mesh[k].data();
+        }
+        group.values[k].resize(plane.pixels());
+        group.sizes[k].resize(plane.pixels());
+        plane.values = group.values[k].data();
+        plane.sizes = group.sizes[k].data();
+        plane.guide = k > 0 ? group.sizes[k - 1].data() : first > 0 ? group.before.data() : nullptr;
+    }
+    if (!TilePlaneReader::read(readers, planes, int(count)))
+        return bad();
+    group.before.swap(group.sizes[count - 1]);
     return {};
 }
 
@@ -338,7 +372,7 @@ Status Decoder::File::tile_plane(ByteReader* in, const SamplePoints& points, std
 void Decoder::File::finish(std::vector<std::vector<std::int32_t>>& group, std::size_t first, std::uint32_t width,
                            std::uint32_t height, bool exact, const std::vector<Plane>& planes) const
 {
-    if (group.size() == 3)
+    if (first == 0)
         inverse(Transform(head.transform), group);
     for (std::size_t k = 0; k < group.size(); ++k)
         if (planes[first + k].data)
@@ -350,7 +384,7 @@ Status Decoder::File::tile(std::uint32_t column, std::uint32_t row, const std::v
     const std::uint32_t x = column * head.tile, y = row * head.tile;
     const std::uint32_t width = std::min<std::uint32_t>(head.tile, desc.data.width - x);
     const std::uint32_t height = std::min<std::uint32_t>(head.tile, desc.data.height - y);
-    const std::size_t pixels = std::size_t(width) * height, number = std::size_t(row) * columns() + column;
+    const std::size_t number = std::size_t(row) * columns() + column;
     const SamplePoints points = SamplePoints::rectangle(x, y, width, height);
     Bytes bytes;
     ByteReader in(nullptr, 0);
@@ -366,20 +400,16 @@ Status Decoder::File::tile(std::uint32_t column, std::uint32_t row, const std::v
         in = body_of(bytes);
         in.u32();
     }
-    std::vector<std::uint16_t> sizes(pixels), before(pixels);
-    for (std::size_t first = 0; first < desc.channels.size();) {
-        std::vector<std::vector<std::int32_t>> group(group_size(first));
-        for (std::size_t k = 0; k < group.size(); ++k) {
-            group[k].resize(pixels);
-            const TilePlane plane { int(width), int(height), group[k].data(), nullptr,
-                                    first + k > 0 ? before.data() : nullptr, sizes.data() };
-            status = tile_plane(exact ? &in : nullptr, points, column, row, first + k, plane);
-            if (!status)
-                return status;
-            sizes.swap(before);
-        }
-        finish(group, first, width, height, exact, planes);
-        first += group.size();
+    TileGroup group;
+    for (std::size_t first = 0; first < desc.channels.size(); first += group.values.size()) {
+        group.values.resize(group_size(first));
+        if (exact)
+            status = read_group(in, points, column, row, first, group);
+        for (std::size_t k = 0; !exact && status && k < group.values.size(); ++k)
+            status = show(points, column, row, first + k, group.values[k]);
+        if (!status)
+            return status;
+        finish(group.values, first, width, height, exact, planes);
     }
     return exact && !in.finished() ? Status::failure("pimg: tile " + std::to_string(number) + " is damaged") : Status();
 }

@@ -173,62 +173,125 @@ void write_tile_plane(const TilePlane& plane, TilePredictor predictor, Bytes& ou
         put_bytes(out, coded.data(), coded.size());
 }
 
-namespace {
+/// One channel being decoded. What walk() keeps in variables is here for each.
+struct TilePlaneReader::Lane {
+    SymbolCursor cursor;
+    Shape shape;
+    std::int32_t* values;
+    const std::int32_t* mesh;
+    const std::uint16_t* guide;
+    std::uint16_t* sizes;
+    const std::uint8_t* bytes;  ///< of the planar method, or nullptr
+    std::uint32_t planes;
+    std::int64_t w, n, nw, ne, size_w;
 
-bool read_symbols(ByteReader& in, const TilePlane& plane, TilePredictor predictor)
-{
-    SymbolReader symbols;
-    if (!symbols.open(in))
-        return false;
-    SymbolCursor cursor = symbols.cursor();
-    std::int32_t* const values = plane.values;
-    walk(plane, predictor, [&cursor, values](std::size_t at, std::int64_t prediction, std::uint32_t klass) {
-        const std::uint32_t v = cursor.next(klass);
-        values[at] = restored(v, prediction);
-        return size_of_folded(v);
-    });
-    symbols.set_cursor(cursor);
-    return symbols.finished();
-}
+    std::int64_t difference(std::size_t at) const { return std::int64_t(values[at]) - (mesh ? mesh[at] : 0); }
 
-bool read_planes(ByteReader& in, const TilePlane& plane, TilePredictor predictor)
-{
-    const std::uint32_t planes = in.u8();
-    const std::uint64_t packed = in.varint();
-    if (planes < 1 || planes > 4 || packed > in.left())
-        return false;
-    const std::size_t n = plane.pixels();
-    Bytes bytes(n * planes);
-    if (!zstd_unpack(in.take(std::size_t(packed)), std::size_t(packed), bytes.data(), bytes.size()))
-        return false;
-    walk(plane, predictor, [&](std::size_t at, std::int64_t prediction, std::uint32_t) {
+    std::uint32_t number(std::size_t at, std::size_t pixels, std::uint32_t klass)
+    {
+        if (!bytes)
+            return cursor.next(klass);
         std::uint32_t v = 0;
         for (std::uint32_t k = planes; k-- > 0;)
-            v = v << 8 | bytes[k * n + at];
-        plane.values[at] = restored(v, prediction);
-        return size_of_folded(v);
-    });
-    return true;
-}
+            v = v << 8 | bytes[k * pixels + at];
+        return v;
+    }
 
-}  // namespace
+    std::int64_t prediction() const
+    {
+        switch (shape) {
+        case Shape::none: return predict<Shape::none>(w, n, nw, ne);
+        case Shape::left: return predict<Shape::left>(w, n, nw, ne);
+        case Shape::median: return predict<Shape::median>(w, n, nw, ne);
+        case Shape::mean: return predict<Shape::mean>(w, n, nw, ne);
+        }
+        return 0;
+    }
+};
 
-bool read_tile_plane(ByteReader& in, const TilePlane& plane)
+/// The same order of things as in walk(), for several channels at once.
+template<int count>
+void TilePlaneReader::read_lanes(Lane* lanes, const TilePlane& tile)
 {
-    const std::uint32_t head = in.u8();
-    const TilePredictor predictor { Shape(head & 3), (head & 4) != 0 };
-    if (!in.ok() || (predictor.gouraud && !plane.gouraud) || (head & 8) != 0)
-        return false;
-    switch (head >> 4) {
-    case kSymbols: return read_symbols(in, plane, predictor);
-    case kPlanes: return read_planes(in, plane, predictor);
-    default: return false;
+    const int width = tile.width, height = tile.height;
+    const std::size_t up = std::size_t(width), pixels = tile.pixels();
+    std::size_t at = 0;
+    for (int y = 0; y < height; ++y) {
+        for (int c = 0; c < count; ++c) {
+            Lane& l = lanes[c];
+            l.w = l.n = l.nw = l.ne = l.size_w = 0;
+            if (y > 0) {
+                l.w = l.n = l.nw = l.difference(at - up);
+                l.size_w = l.sizes[at - up];
+            }
+        }
+        for (int x = 0; x < width; ++x, ++at)
+            for (int c = 0; c < count; ++c) {
+                Lane& l = lanes[c];
+                std::int64_t size_n = l.size_w;
+                if (y > 0) {
+                    l.ne = x + 1 < width ? l.difference(at - up + 1) : l.n;
+                    size_n = l.sizes[at - up];
+                } else
+                    l.n = l.nw = l.ne = l.w;
+                std::int64_t busy
+                    = size(l.w - l.nw) + size(l.n - l.nw) + size(l.n - l.ne) + 2 * (l.size_w + size_n);
+                if (l.guide)
+                    busy += 2 * std::int64_t(l.guide[at]);
+                const std::uint32_t v
+                    = l.number(at, pixels, class_of(std::uint32_t(std::min<std::int64_t>(busy, 0xffffffffll))));
+                const std::int64_t base = l.mesh ? std::int64_t(l.mesh[at]) : 0;
+                const std::int32_t value = restored(v, base + l.prediction());
+                l.values[at] = value;
+                l.size_w = std::min<std::uint32_t>(size_of_folded(v), 65535);
+                l.sizes[at] = std::uint16_t(l.size_w);
+                l.w = std::int64_t(value) - base;
+                l.nw = l.n;
+                l.n = l.ne;
+            }
     }
 }
 
-bool tile_plane_uses_gouraud(const ByteReader& in)
+bool TilePlaneReader::open(ByteReader& in, std::size_t pixels)
 {
-    return in.left() > 0 && (*in.here() & 4) != 0;
+    const std::uint32_t head = in.u8();
+    m_predictor = { Shape(head & 3), (head & 4) != 0 };
+    m_planar = head >> 4 == kPlanes;
+    if (!in.ok() || (head & 8) != 0 || head >> 4 > kPlanes)
+        return false;
+    if (!m_planar)
+        return m_symbols.open(in);
+    m_planes = in.u8();
+    const std::uint64_t packed = in.varint();
+    if (m_planes < 1 || m_planes > 4 || packed > in.left())
+        return false;
+    m_bytes.resize(pixels * m_planes);
+    return zstd_unpack(in.take(std::size_t(packed)), std::size_t(packed), m_bytes.data(), m_bytes.size());
+}
+
+bool TilePlaneReader::read(TilePlaneReader* readers, const TilePlane* planes, int count)
+{
+    Lane lanes[kLanes];
+    for (int c = 0; c < count; ++c) {
+        const TilePlaneReader& r = readers[c];
+        const bool gouraud = r.m_predictor.gouraud;
+        if (gouraud && !planes[c].gouraud)
+            return false;
+        lanes[c] = { r.m_symbols.cursor(), r.m_predictor.shape, planes[c].values, gouraud ? planes[c].gouraud : nullptr,
+                     planes[c].guide, planes[c].sizes, r.m_planar ? r.m_bytes.data() : nullptr, r.m_planes,
+                     0, 0, 0, 0, 0 };
+    }
+    switch (count) {
+    case 1: read_lanes<1>(lanes, planes[0]); break;
+    case 2: read_lanes<2>(lanes, planes[0]); break;
+    default: read_lanes<3>(lanes, planes[0]);
+    }
+    for (int c = 0; c < count; ++c) {
+        readers[c].m_symbols.set_cursor(lanes[c].cursor);
+        if (!readers[c].m_planar && !readers[c].m_symbols.finished())
+            return false;
+    }
+    return true;
 }
 
 }  // namespace pimg

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "codec_bytes.h"
+#include "symbol_coder.h"
 
 namespace pimg {
 
@@ -35,10 +36,28 @@ void write_tile_plane(const TilePlane& plane, TilePredictor predictor, Bytes& ou
 /// Bits, in 1/256, the residuals would take: an estimate without the coding itself.
 std::uint64_t estimate_tile_plane(const TilePlane& plane, TilePredictor predictor);
 
-/// Reads one channel; false when it is damaged.
-bool read_tile_plane(ByteReader& in, const TilePlane& plane);
+/// Reads the channels of a tile, up to kLanes at a time: each waits for its own samples only, so that a processor can work
+/// on several at once.
+class TilePlaneReader {
+public:
+    /// Reads the head of a channel and takes its stream; false when it is damaged. The bytes must stay alive.
+    bool open(ByteReader& in, std::size_t pixels);
+    bool uses_gouraud() const { return m_predictor.gouraud; }
 
-/// Whether the channel at `in` needs the mesh layer (looks at its first byte only).
-bool tile_plane_uses_gouraud(const ByteReader& in);
+    static constexpr int kLanes = 3;
+    /// Decodes `count` channels; false when one is damaged.
+    static bool read(TilePlaneReader* readers, const TilePlane* planes, int count);
+
+private:
+    struct Lane;
+    template<int count>
+    static void read_lanes(Lane* lanes, const TilePlane& shape);
+
+    TilePredictor m_predictor;
+    bool m_planar = false;
+    SymbolReader m_symbols;
+    std::uint32_t m_planes = 0;
+    Bytes m_bytes;
+};
 
 }  // namespace pimg

@@ -242,8 +242,7 @@ bool SymbolReader::open(ByteReader& in)
         m_words[i] = std::uint16_t(load_u16(word_bytes + 2 * i));
     m_raw.assign(raw_bytes, raw_bytes + raw);
     m_raw.resize(m_raw.size() + 8);
-    c.tables = m_tables.data();
-    c.context_of = m_context_of.data();
+    c.table_of = m_table_of.data();
     c.words = m_words.data();
     c.word_count = std::size_t(words);
     c.raw = m_raw.data();
@@ -265,7 +264,7 @@ bool SymbolReader::read_tables(const std::uint8_t* data, std::size_t size)
         if (last < klass || last >= kClasses)
             return false;
         for (; klass <= last; ++klass)
-            m_context_of[klass] = std::uint8_t(i);
+            m_table_of[klass] = &m_tables[i];
         const std::uint32_t used = in.direct(7);
         if (used < 1 || used > kTokens)
             return false;

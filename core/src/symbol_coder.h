@@ -70,8 +70,7 @@ struct SymbolTable {
 /// The moving part of a SymbolReader. Loops copy it to a local variable, where it can live in registers. Nothing here
 /// branches on data; past the ends it reads padding and counts on.
 struct SymbolCursor {
-    const SymbolTable* tables = nullptr;
-    const std::uint8_t* context_of = nullptr;
+    const SymbolTable* const* table_of = nullptr;  ///< by class
     const std::uint16_t* words = nullptr;
     const std::uint8_t* raw = nullptr;
     std::size_t word = 0, word_count = 0;
@@ -80,7 +79,7 @@ struct SymbolCursor {
 
     std::uint32_t next(std::uint32_t klass)
     {
-        const SymbolTable& table = tables[context_of[klass]];
+        const SymbolTable& table = *table_of[klass];
         const std::uint32_t x = state[0], slot = x & (kProbabilities - 1);
         const std::uint32_t token = table.token[slot];
         const SymbolTable::Range range = table.range[token];
@@ -118,6 +117,10 @@ inline constexpr SymbolCursor::TokenTable SymbolCursor::kTokenBits {};
 
 class SymbolReader {
 public:
+    SymbolReader() = default;
+    SymbolReader(const SymbolReader&) = delete;
+    SymbolReader& operator=(const SymbolReader&) = delete;
+
     /// Reads the tables and takes the rest of the stream; false when it is damaged.
     bool open(ByteReader& in);
     std::uint32_t next(std::uint32_t klass) { return m_cursor.next(klass); }
@@ -131,7 +134,7 @@ public:
 private:
     bool read_tables(const std::uint8_t* data, std::size_t size);
 
-    std::array<std::uint8_t, kClasses> m_context_of {};
+    std::array<const SymbolTable*, kClasses> m_table_of {};
     std::vector<SymbolTable> m_tables;
     std::vector<std::uint16_t> m_words;  ///< and one more
     Bytes m_raw;                         ///< and eight more

@@ -79,7 +79,7 @@ enum class Profile : std::uint8_t { compact = 0, full = 1 };
 
 struct EncodeOptions {
     Profile profile = Profile::compact;
-    float vertices = 0.015f;  ///< share of the pixels that become vertices of the mesh layer, 0 .. 0.3
+    float vertices = 0.0125f;  ///< share of the pixels that become vertices of the mesh layer, 0 .. 0.3
     int effort = 1;           ///< 0 quick (one predictor for all tiles), 1 normal, 2 tries everything
     std::uint32_t tile = 256; ///< side of the raster tiles, 16 .. 1024
     /// Positions of a stored hierarchy are moved onto multiples of 2^shift / 64 pixels; 0 keeps them as they are. -1: 0, but 2 for
