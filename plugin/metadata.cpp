@@ -39,11 +39,21 @@ bool is_hint(const std::string& name, TypeDesc type)
 constexpr const char* kAlphaChannel = "pimg:alpha_channel";
 constexpr const char* kDepthChannel = "pimg:z_channel";
 
+/// Whether OpenImageIO has a name for the type: asked for any other, some versions abort.
+bool has_name(TypeDesc type)
+{
+    for (const TypeDesc& named : { OIIO::TypeTimeCode, OIIO::TypeKeyCode, OIIO::TypeRational })
+        if (type == named)
+            return true;
+    return type.vecsemantics == TypeDesc::NOSEMANTICS
+           || (type.aggregate == TypeDesc::VEC3 && type.vecsemantics <= TypeDesc::NORMAL);
+}
+
 /// As OpenImageIO prints it where it can read that back, else "base:aggregate:semantics[length]".
 std::string type_word(TypeDesc type)
 {
-    const std::string word = type.c_str();
-    if (TypeDesc(word) == type)
+    const std::string word = has_name(type) ? type.c_str() : "";
+    if (!word.empty() && TypeDesc(word) == type)
         return word;
     return OIIO::Strutil::fmt::format("{}:{}:{}[{}]", TypeDesc(TypeDesc::BASETYPE(type.basetype)).c_str(),
                                       int(type.aggregate), int(type.vecsemantics), type.arraylen);

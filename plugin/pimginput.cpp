@@ -155,7 +155,8 @@ bool PimgInput::valid_file(Filesystem::IOProxy* proxy) const
 
 bool PimgInput::open(const std::string& name, ImageSpec& spec, const ImageSpec& config)
 {
-    close();
+    if (m_decoder.is_open())
+        close();  // which forgets a proxy that was set for this file
     const bool opened = guarded([&] {
         m_name = name;
         ioproxy_retrieve_from_config(config);

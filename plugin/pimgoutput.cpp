@@ -227,7 +227,8 @@ bool PimgOutput::open(const std::string& name, const ImageSpec& spec, OpenMode m
         errorfmt("pimg: files hold one image: no {} can be added", mode == AppendMIPLevel ? "MIP level" : "subimage");
         return false;
     }
-    close();
+    if (m_open)
+        close();  // which forgets a proxy that was set for this file
     return guarded([&] {
         m_name = name;
         m_spec = spec;

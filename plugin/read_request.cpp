@@ -74,6 +74,13 @@ public:
     {
         return m_start(m_options, m_key, value, error) && error.empty();
     }
+    bool check(std::string& error) const override
+    {
+        Level level = 0;
+        if constexpr (std::is_base_of_v<LevelOptions, Options>)
+            return ImageBufAlgo::find_level({}, m_options, level, error);
+        return true;
+    }
     bool run(ImageBuf& dst, const ProgressiveImage& src, int nthreads) const override
     {
         return m_function(dst, src, m_options, {}, nthreads);
@@ -248,7 +255,7 @@ bool ReadRequest::parse(const std::string& name, const ImageSpec& config, std::s
                               : format("{} needs {}", key, owner);
         return false;
     }
-    return true;
+    return !m_filter || m_filter->check(error);
 }
 
 bool ReadRequest::change_spec(ImageSpec& spec, std::string& error) const

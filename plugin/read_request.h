@@ -30,6 +30,8 @@ public:
     virtual bool set(const std::string& key, const std::string& value, bool& known, std::string& error) = 0;
     /// Takes the value given to the filter's own key. False: the filter is not wanted.
     virtual bool start(const std::string& value, std::string& error) = 0;
+    /// Whether the options go together, as far as can be told without the picture.
+    virtual bool check(std::string& error) const = 0;
     virtual bool run(OIIO::ImageBuf& dst, const ProgressiveImage& src, int nthreads) const = 0;
     virtual std::string keys() const = 0;
     bool floating = false;  ///< results may leave the range of the file's samples

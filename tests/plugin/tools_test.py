@@ -50,7 +50,8 @@ class Catalogue(plugin_files.PluginTest):
 class Converting(plugin_files.PluginTest):
     def test_there_and_back(self):
         for name, kind in (("a.png", "uint8"), ("b.png", "uint16"), ("c.exr", "half"), ("d.tif", "float")):
-            write(name, scene(70, 50, 3 if name == "a.png" else 4), kind)
+            # PNG has no associated alpha: OpenImageIO itself changes it on the way.
+            write(name, scene(70, 50, 3 if name.endswith(".png") else 4), kind)
             for profile in ("compact", "full"):
                 self.ok("oiiotool", name, "--attrib", "pimg:profile", profile, "-o", "a.pimg")
                 self.ok("oiiotool", "a.pimg", "-o", "back_" + name)

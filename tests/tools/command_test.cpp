@@ -55,6 +55,17 @@ std::vector<const Command*> commands_with_keys()
     return found;
 }
 
+/// A command line in which this command, as `text`, has the words it needs.
+Arguments with_words(const Command& command, const std::string& text)
+{
+    Arguments arguments = { "in.png", text };
+    if (*command.words)
+        arguments.push_back("out.pimg");
+    else
+        arguments.insert(arguments.end(), { "-o", "out.png" });
+    return arguments;
+}
+
 TEST_F(CommandLine, BecomesOneStepPerFileAndOperation)
 {
     Program program;
@@ -108,13 +119,13 @@ TEST_F(CommandLine, NamesUnknownAndUnfinishedKeys)
 {
     for (const Command* command : commands_with_keys()) {
         const std::string name = command->name;
-        expect_operation_error(name + ":size=3", { command->name, "\"size\"", "expected" });
-        expect_operation_error(name + ":size", { command->name, "\"size\"", "key=value" });
-        expect_operation_error(name + ":=3", { command->name, "key=value" });
-        expect_operation_error(name + ":", { command->name, "key=value" });
+        for (const auto& [suffix, word] : { std::pair(":size=3", "expected"), { ":size", "key=value" },
+                                            { ":=3", "key=value" }, { ":", "key=value" } })
+            expect_error(with_words(*command, name + suffix), { command->name, word });
+        expect_error(with_words(*command, name + ":size=3"), { "\"size\"" });
     }
     expect_operation_error("--dup:deep=1", { "--dup", "\"deep\"", "none" });
-    expect_error({ "in.png", "-o:type=half", "out.png" }, { "-o", "\"type\"", "none" });
+    expect_error({ "in.png", "-o:type=half", "out.pimg" }, { "-o", "\"type\"", "profile" });
 }
 
 TEST_F(CommandLine, NamesBadValues)
@@ -190,7 +201,7 @@ TEST_F(CommandLine, TakesEveryKeyAtItsDefault)
             if (option.default_value.empty())
                 continue;
             const std::string text = std::string(command->name) + ":" + option.key + "=" + option.default_value;
-            EXPECT_EQ(error_of({ "in.png", text, "-o", "out.png" }), "") << text;
+            EXPECT_EQ(error_of(with_words(*command, text)), "") << text;
         }
 }
 

@@ -72,7 +72,7 @@ class Errors(pictures.ToolTest):
 class Answers(pictures.ToolTest):
     def test_help(self):
         text = self.ok("--help")
-        for word in ("--hdr-compress[:key=value...]", "saturation=1", "-o FILE", "--threads N"):
+        for word in ("--hdr-compress[:key=value...]", "saturation=1", "-o[:key=value...] FILE", "--threads N"):
             self.assertIn(word, text)
         text = self.ok("-help", "hdr-compress")
         self.assertIn("saturation=1", text)
