@@ -287,6 +287,7 @@ template<> const std::vector<Option<io::WriteOptions>>& option_table<io::WriteOp
         { &W::profile, { "profile", 0, 0, "", "compact|full", "full keeps the hierarchy, so that filters start at once" } },
         { &W::vertices, { "vertices", 0, 0.3, "of the pixels", "", "size of the mesh layer, the preview" } },
         { &W::effort, { "effort", 0, 2, "", "", "0 writes faster, 2 smaller" } },
+        { &W::quality, { "quality", 0, 100, "percent", "", "the same as effort; samples are always exact" } },
         { &W::tile, { "tile", 16, 1024, "pixels", "", "side of the tiles the exact samples are coded in" } },
     };
     return table;

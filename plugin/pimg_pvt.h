@@ -22,6 +22,7 @@ struct WriteOptions {
     std::string profile = "compact";
     float vertices = 0.015f;
     int effort = 1;
+    int quality = -1;  ///< 0 .. 100 instead of effort; below 0: not given
     int tile = 256;
 };
 

@@ -141,6 +141,8 @@ private:
     const Hierarchy* m_given;
     std::string m_name;
     WriteOptions m_options;
+    BuildOptions m_build;                ///< of the hierarchy
+    bool m_build_given = false;
     std::vector<std::uint8_t> m_pixels;  ///< packed native samples, row by row
     std::vector<bool> m_here;            ///< which scanlines or tiles have come
     std::size_t m_missing = 0;           ///< how many have not
@@ -198,6 +200,8 @@ bool PimgOutput::check(const ImageSpec& spec)
 bool PimgOutput::read_hints()
 {
     m_options = {};
+    m_build = {};
+    m_build_given = false;
     std::string error;
     const auto words = OIIO::Strutil::splits(m_spec.get_string_attribute("compression"), ":");
     if (!words.empty() && (words[0] == "compact" || words[0] == "full")) {
@@ -212,12 +216,21 @@ bool PimgOutput::read_hints()
         if (!OIIO::Strutil::istarts_with(name, "pimg:"))
             continue;
         const std::string key = OIIO::Strutil::lower(name.substr(5));
-        for (const Option<WriteOptions>& option : option_table<WriteOptions>())
-            if (key == option.rule.key && !set_option(m_options, key, hint_text(hint), error)) {
-                errorfmt("pimg: {}", error);
-                return false;
-            }
+        const auto is_one_of = [&](const auto& table) {
+            return std::any_of(table.begin(), table.end(), [&](const auto& option) { return key == option.rule.key; });
+        };
+        bool fine = true;
+        if (is_one_of(option_table<WriteOptions>()))
+            fine = set_option(m_options, key, hint_text(hint), error);
+        else if (is_one_of(option_table<BuildOptions>()))
+            fine = m_build_given = set_option(m_build, key, hint_text(hint), error);
+        if (!fine) {
+            errorfmt("pimg: {}", error);
+            return false;
+        }
     }
+    if (m_options.quality >= 0)
+        m_options.effort = (m_options.quality + 25) / 50;
     return true;
 }
 
@@ -325,7 +338,7 @@ bool PimgOutput::accept(std::size_t part)
     return stored;
 }
 
-/// The hierarchy the filters would build, rather than the codec's own: a full file is kept for them.
+/// The hierarchy the filters would build, or the one asked for, rather than the codec's own.
 bool PimgOutput::build_hierarchy(ProgressiveImage& progressive)
 {
     ImageSpec spec = m_spec;
@@ -339,7 +352,7 @@ bool PimgOutput::build_hierarchy(ProgressiveImage& progressive)
         picture.set_pixels(channel, m_spec.channelformat(c), m_pixels.data() + m_spec.pixel_bytes(0, c, true),
                            stride_t(pixel), stride_t(m_spec.scanline_bytes(true)));
     }
-    if (progressive.build(picture, {}, threads()))
+    if (progressive.build(picture, m_build, threads()))
         return true;
     errorfmt("pimg: {}", progressive.error());
     return false;
@@ -355,7 +368,7 @@ bool PimgOutput::finish()
     options.parallel = pool_loop(threads());
     options.hierarchy = m_given;
     ProgressiveImage progressive;
-    if (options.profile == Profile::full && !m_given) {
+    if ((options.profile == Profile::full || m_build_given) && !m_given) {
         if (!build_hierarchy(progressive))
             return false;
         options.hierarchy = &progressive.hierarchy();

@@ -9,6 +9,7 @@
 #include "collapse_mesh.h"
 #include "collapse_record.h"
 #include "collapse_sequence.h"
+#include "initial_mesh_code.h"
 
 namespace pimg {
 
@@ -63,11 +64,13 @@ public:
 
 private:
     Status read_chunk(ByteSpan chunk, const std::vector<std::int32_t>& guide, bool first);
-    bool read_diagonals(SymbolReader& in, const std::vector<std::int32_t>& guide);
+    bool read_start(const std::uint8_t* initial, std::size_t size, SymbolReader& diagonals,
+                    const std::vector<std::int32_t>& guide);
+    void read_diagonals(SymbolReader& in, const std::vector<std::int32_t>& guide);
     bool read_batch(ByteReader& heads);
     bool read_collapse(Index t);
     void analyse_collapse(const Star& star, Index t, Index u, Point s);
-    void finish(Hierarchy& h, std::vector<Bands>& bands);
+    Status finish(Hierarchy& h, std::vector<Bands>& bands);
 
     Hierarchy m_h;
     CollapseMesh m_mesh;
@@ -78,11 +81,27 @@ private:
     std::vector<Index> m_batch;  ///< t of each collapse of the batch at hand
     std::vector<Index> m_born;  ///< u of each collapse
     SymbolReader m_gap, m_choice, m_x, m_y;
+    Index m_vertices = 0;  ///< of the mesh the sequence starts from
     std::uint32_t m_shift = 0;
     float m_cost = 0.0f;
 };
 
-bool SequenceReader::read_diagonals(SymbolReader& in, const std::vector<std::int32_t>& guide)
+/// The mesh the sequence starts from: some pixels, if there are bytes that say which, else all.
+bool SequenceReader::read_start(const std::uint8_t* initial, std::size_t size, SymbolReader& diagonals,
+                                const std::vector<std::int32_t>& guide)
+{
+    if (size == 0)
+        read_diagonals(diagonals, guide);
+    else if (!read_initial_mesh(initial, size, guide, m_mesh))
+        return false;
+    for (Index v = 0; v < m_mesh.size(); ++v)
+        if (m_mesh.alive(v))
+            m_alive.push_back(v);
+    m_vertices = Index(m_alive.size());
+    return diagonals.finished();
+}
+
+void SequenceReader::read_diagonals(SymbolReader& in, const std::vector<std::int32_t>& guide)
 {
     const int width = m_h.mesh_width(), height = m_h.mesh_height();
     std::vector<std::uint8_t> falling(std::size_t(width - 1) * std::size_t(height - 1));
@@ -94,7 +113,6 @@ bool SequenceReader::read_diagonals(SymbolReader& in, const std::vector<std::int
             falling[quad++] = (in.next(guess.klass) & 1) ? !guess.falling : guess.falling;
         }
     m_mesh.connect(falling);
-    return in.finished();
 }
 
 void SequenceReader::analyse_collapse(const Star& star, Index t, Index u, Point s)
@@ -192,10 +210,14 @@ Status SequenceReader::read_chunk(ByteSpan chunk, const std::vector<std::int32_t
     if (!in.ok() || m_shift > 6 || size > in.left() || batches > size)
         return bad();
     ByteReader heads(in.take(std::size_t(size)), std::size_t(size));
+    const std::uint64_t initial_size = in.varint();
+    if (!in.ok() || initial_size > in.left() || (!first && initial_size > 0))
+        return bad();
+    const std::uint8_t* const initial = in.take(std::size_t(initial_size));
     SymbolReader diagonals;
     if (!diagonals.open(in) || !m_gap.open(in) || !m_choice.open(in) || !m_x.open(in) || !m_y.open(in) || !in.finished())
         return bad();
-    if (first ? !read_diagonals(diagonals, guide) : !diagonals.finished())
+    if (first ? !read_start(initial, std::size_t(initial_size), diagonals, guide) : !diagonals.finished())
         return bad();
     for (std::uint64_t b = 0; b < batches; ++b)
         if (!read_batch(heads))
@@ -205,9 +227,9 @@ Status SequenceReader::read_chunk(ByteSpan chunk, const std::vector<std::int32_t
 }
 
 /// Numbers the vertices, base first and then by the split that makes each, and turns the sequence around.
-void SequenceReader::finish(Hierarchy& h, std::vector<Bands>& bands)
+Status SequenceReader::finish(Hierarchy& h, std::vector<Bands>& bands)
 {
-    std::vector<Index> number(m_mesh.size());
+    std::vector<Index> number(m_mesh.size(), kGhost);
     Index base = 0;
     for (Index v = 0; v < m_mesh.size(); ++v)
         if (m_mesh.alive(v))
@@ -228,9 +250,10 @@ void SequenceReader::finish(Hierarchy& h, std::vector<Bands>& bands)
     for (Stencil& k : m_h.stencils)
         for (Index* v : { &k.s, &k.at, &k.bt, &k.au, &k.bu })
             *v = number[*v];
-    m_h.pixels.resize(m_mesh.size());
+    m_h.pixels.resize(m_vertices);
     for (Index v = 0; v < m_mesh.size(); ++v)
-        m_h.pixels[number[v]] = v;
+        if (number[v] != kGhost)
+            m_h.pixels[number[v]] = v;
     for (Bands& b : m_bands) {
         std::reverse(b.details.begin(), b.details.end());
         b.base.resize(base);
@@ -248,10 +271,14 @@ void SequenceReader::finish(Hierarchy& h, std::vector<Bands>& bands)
                 m_h.base_triangles.push_back({ number[v], number[a], number[b] });
         }
     }
+    const Status status = find_pixels_between(m_h);
+    if (!status)
+        return status;
     h = std::move(m_h);
-    for (Bands& b : m_bands)
-        values_to_details(h, nullptr, b);  // every pixel is a vertex: no residual
+    for (std::size_t c = 0; c < m_bands.size(); ++c)
+        values_to_details(h, h.between.empty() ? nullptr : m_channels[c], m_bands[c]);
     bands = std::move(m_bands);
+    return {};
 }
 
 Status SequenceReader::run(const std::vector<ByteSpan>& chunks, const std::vector<std::int32_t>& guide, Hierarchy& h,
@@ -263,8 +290,6 @@ Status SequenceReader::run(const std::vector<ByteSpan>& chunks, const std::vecto
     m_h.costs.reserve(n);
     m_born.reserve(n);
     m_alive.reserve(n);
-    for (Index v = 0; v < Index(n); ++v)
-        m_alive.push_back(v);
     m_bands.resize(m_channels.size());
     for (std::size_t c = 0; c < m_channels.size(); ++c) {
         m_values.emplace_back(m_channels[c], m_channels[c] + n);
@@ -275,8 +300,7 @@ Status SequenceReader::run(const std::vector<ByteSpan>& chunks, const std::vecto
         if (!status)
             return status;
     }
-    finish(h, bands);
-    return {};
+    return finish(h, bands);
 }
 
 }  // namespace

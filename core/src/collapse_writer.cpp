@@ -8,6 +8,7 @@
 #include "binary_coder.h"
 #include "collapse_mesh.h"
 #include "collapse_sequence.h"
+#include "initial_mesh_code.h"
 
 namespace pimg {
 
@@ -73,16 +74,14 @@ std::vector<std::uint8_t> find_diagonals(const Hierarchy& h, const Mesh& finest)
     return falling;
 }
 
-/// All collapses with their keys, in the order of the file.
-Status schedule_collapses(const Hierarchy& h, const std::vector<std::uint8_t>& falling, const std::vector<Point>& coarse,
+/// All collapses of the mesh with their keys, in the order of the file.
+Status schedule_collapses(const Hierarchy& h, CollapseMesh mesh, const std::vector<Point>& coarse,
                           std::vector<Collapse>& collapses)
 {
-    CollapseMesh mesh(h.mesh_width(), h.mesh_height());
-    mesh.connect(falling);
     Scheduler scheduler(mesh.size());
     std::vector<Index> name(h.pixels);  // smallest pixel merged into each vertex
     std::uint64_t batch = 1;
-    double left = double(mesh.size());
+    double left = double(h.vertices());
     std::size_t in_batch = 0;
     for (Level i = h.levels(); i-- > 0;) {
         const Index s = h.splits[i].s, born = h.base_vertices() + i;
@@ -108,6 +107,7 @@ Status schedule_collapses(const Hierarchy& h, const std::vector<std::uint8_t>& f
 struct Streams {
     SymbolWriter diagonal, gap, choice, x, y;
     Bytes heads;  ///< count and cost of each batch
+    Bytes start;  ///< the mesh the sequence starts from, if it is not one of every pixel; in the first chunk
     std::size_t batches = 0, collapses = 0;
 
     Bytes finish(std::uint32_t lattice_shift)
@@ -115,13 +115,16 @@ struct Streams {
         Bytes out;
         put_u8(out, lattice_shift);
         put_varint(out, batches);
-        put_varint(out, heads.size());
-        put_bytes(out, heads.data(), heads.size());
+        for (const Bytes* part : { &heads, &start }) {
+            put_varint(out, part->size());
+            put_bytes(out, part->data(), part->size());
+        }
         for (SymbolWriter* w : { &diagonal, &gap, &choice, &x, &y }) {
             const Bytes coded = w->finish();
             put_bytes(out, coded.data(), coded.size());
         }
         heads.clear();
+        start.clear();
         batches = collapses = 0;
         return out;
     }
@@ -129,12 +132,11 @@ struct Streams {
 
 class SequenceWriter {
 public:
-    SequenceWriter(const Hierarchy& h, std::uint32_t lattice_shift)
-        : m_mesh(h.mesh_width(), h.mesh_height()), m_shift(lattice_shift)
-    {}
+    /// Either `falling`, the diagonals of a mesh of every pixel, or the bytes of the initial mesh.
+    SequenceWriter(const CollapseMesh& mesh, std::uint32_t lattice_shift, const std::vector<std::uint8_t>& falling,
+                   const Bytes& initial, const std::vector<std::int32_t>& guide);
     /// False when a position has no place on the lattice.
-    bool run(const std::vector<std::uint8_t>& falling, const std::vector<std::int32_t>& guide, int width,
-             const std::vector<Collapse>& collapses, CollapseChunks& chunks);
+    bool run(const std::vector<Collapse>& collapses, CollapseChunks& chunks);
 
 private:
     bool write_batch(const Collapse* first, const Collapse* last, float cost);
@@ -201,18 +203,26 @@ bool SequenceWriter::write_batch(const Collapse* first, const Collapse* last, fl
     return true;
 }
 
-bool SequenceWriter::run(const std::vector<std::uint8_t>& falling, const std::vector<std::int32_t>& guide, int width,
-                         const std::vector<Collapse>& collapses, CollapseChunks& chunks)
+SequenceWriter::SequenceWriter(const CollapseMesh& mesh, std::uint32_t lattice_shift,
+                               const std::vector<std::uint8_t>& falling, const Bytes& initial,
+                               const std::vector<std::int32_t>& guide)
+    : m_mesh(mesh), m_shift(lattice_shift)
 {
-    chunks.chunks.clear();
-    m_mesh.connect(falling);
+    const int width = mesh.extent().x / kSubpixels + 1;
     for (std::size_t quad = 0; quad < falling.size(); ++quad) {
         const std::size_t x = quad % std::size_t(width - 1), y = quad / std::size_t(width - 1);
         const DiagonalGuess guess = guess_diagonal(&guide[y * std::size_t(width) + x], width);
         m_streams.diagonal.add(guess.klass, falling[quad] != (guess.falling ? 1 : 0));
     }
+    m_streams.start = initial;
     for (Index v = 0; v < m_mesh.size(); ++v)
-        m_alive.push_back(v);
+        if (m_mesh.alive(v))
+            m_alive.push_back(v);
+}
+
+bool SequenceWriter::run(const std::vector<Collapse>& collapses, CollapseChunks& chunks)
+{
+    chunks.chunks.clear();
     float cost = 0.0f;
     for (std::size_t i = 0; i < collapses.size();) {
         std::size_t end = i;
@@ -239,15 +249,22 @@ Status write_collapse_sequence(const Hierarchy& h, const PictureDesc& desc, cons
     Status status = refine(h, h.levels(), finest, &coarse);
     if (!status)
         return status;
-    const std::vector<std::uint8_t> falling = find_diagonals(h, finest);
+    const std::vector<std::int32_t> guide = diagonal_guide(desc, samples);
+    CollapseMesh mesh(h.mesh_width(), h.mesh_height());
+    std::vector<std::uint8_t> falling;
+    Bytes initial;
+    if (h.vertices() == h.mesh_pixels()) {
+        falling = find_diagonals(h, finest);
+        mesh.connect(falling);
+    } else
+        initial = write_initial_mesh(h, finest, guide, mesh);
     std::vector<Collapse> collapses;
-    status = schedule_collapses(h, falling, coarse, collapses);
+    status = schedule_collapses(h, mesh, coarse, collapses);
     if (!status)
         return status;
-    const std::vector<std::int32_t> guide = diagonal_guide(desc, samples);
     for (std::uint32_t shift = lattice_shift;; --shift) {
-        SequenceWriter writer(h, shift);
-        if (writer.run(falling, guide, h.mesh_width(), collapses, chunks))
+        SequenceWriter writer(mesh, shift, falling, initial, guide);
+        if (writer.run(collapses, chunks))
             return {};
         if (shift == 0)
             return Status::failure("pimg: the hierarchy could not be written");

@@ -105,7 +105,7 @@ Status Encoder::build_hierarchy()
     m_hierarchy = m_options.hierarchy;
     if (m_hierarchy) {
         const bool fits = m_hierarchy->width == int(m_desc.data.width) && m_hierarchy->height == int(m_desc.data.height)
-                          && !m_hierarchy->empty() && m_hierarchy->vertices() == m_hierarchy->mesh_pixels();
+                          && !m_hierarchy->empty();
         return fits ? Status() : Status::failure("pimg: the hierarchy is not one of this picture");
     }
     const std::vector<float> guide = luma(m_desc, m_integers);

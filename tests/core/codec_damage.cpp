@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Damaged files: every truncation of five small ones, every single bit flipped, random damage with the checksums off. Nothing
+// Damaged files: every truncation of six small ones, every single bit flipped, random damage with the checksums off. Nothing
 // to check but that each ends in an error or a picture: meant to be run with AddressSanitizer and
 // UndefinedBehaviorSanitizer, and within a time limit. Usage: codec_damage [rounds of random damage, default 2000]
 #include <cstdio>
 #include <cstdlib>
 
 #include <pimg/codec.h>
+#include <pimg/sampling.h>
+#include <pimg/simplify.h>
 
 #include "codec_pictures.h"
 
@@ -49,16 +51,39 @@ void try_file(const std::uint8_t* data, std::size_t size, bool check_crc, const 
         ++outcome.silent;
 }
 
+/// Built from a third of the pixels.
+Hierarchy hierarchy_of_chosen(const Picture& picture)
+{
+    std::vector<float> samples;
+    for (std::size_t i = 0; i < picture.pixels.size(); i += 3)
+        samples.push_back(picture.pixels[i]);
+    const Guide guide { int(picture.desc.data.width), int(picture.desc.data.height), { { samples.data(), 1.0f } } };
+    InitialMesh initial;
+    Hierarchy hierarchy;
+    std::vector<Bands> bands;
+    SimplifyOptions options;
+    options.initial = &initial;
+    if (!sample(guide, {}, initial) || !simplify(guide, options, hierarchy, bands))
+        std::abort();
+    return hierarchy;
+}
+
 }  // namespace
 
 int main(int argc, char** argv)
 {
     const long rounds = argc > 1 ? std::atol(argv[1]) : 2000;
     std::vector<std::vector<std::uint8_t>> files;
-    const std::vector<Picture> pictures = conformance_pictures();
+    std::vector<Picture> pictures = conformance_pictures();
+    pictures.push_back(pictures[2]);  // once more, with a hierarchy of chosen pixels
+    const Hierarchy chosen = hierarchy_of_chosen(pictures[2]);
     for (std::size_t i = 0; i < pictures.size(); ++i) {
         EncodeOptions options;
         options.profile = i % 2 == 0 ? Profile::full : Profile::compact;
+        if (i == 5) {
+            options.profile = Profile::full;
+            options.hierarchy = &chosen;
+        }
         options.vertices = 0.1f;
         options.tile = 32;
         files.emplace_back();
