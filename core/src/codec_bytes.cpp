@@ -40,21 +40,6 @@ void put_bytes(Bytes& out, const void* data, std::size_t size)
     out.insert(out.end(), p, p + size);
 }
 
-std::uint32_t load_u16(const std::uint8_t* p)
-{
-    return std::uint32_t(p[0]) | std::uint32_t(p[1]) << 8;
-}
-
-std::uint32_t load_u32(const std::uint8_t* p)
-{
-    return load_u16(p) | load_u16(p + 2) << 16;
-}
-
-std::uint64_t load_u64(const std::uint8_t* p)
-{
-    return load_u32(p) | std::uint64_t(load_u32(p + 4)) << 32;
-}
-
 const std::uint8_t* ByteReader::take(std::size_t size)
 {
     if (!m_ok || size > left()) {

@@ -19,9 +19,18 @@ void put_u64(Bytes& out, std::uint64_t v);
 void put_varint(Bytes& out, std::uint64_t v);
 void put_bytes(Bytes& out, const void* data, std::size_t size);
 
-std::uint32_t load_u16(const std::uint8_t* p);
-std::uint32_t load_u32(const std::uint8_t* p);
-std::uint64_t load_u64(const std::uint8_t* p);
+inline std::uint32_t load_u16(const std::uint8_t* p)
+{
+    return std::uint32_t(p[0]) | std::uint32_t(p[1]) << 8;
+}
+inline std::uint32_t load_u32(const std::uint8_t* p)
+{
+    return load_u16(p) | load_u16(p + 2) << 16;
+}
+inline std::uint64_t load_u64(const std::uint8_t* p)
+{
+    return load_u32(p) | std::uint64_t(load_u32(p + 4)) << 32;
+}
 
 /// Reads forward through a span. Past its end everything reads as 0 and ok() turns false for good, so a
 /// parser may read a whole structure and ask once.

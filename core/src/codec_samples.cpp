@@ -110,9 +110,9 @@ void gather_plane(SampleType type, const ConstPlane& plane, std::uint32_t x0, st
     }
 }
 
-template<class T>
-void scatter_plane(SampleType type, const std::int32_t* from, std::uint32_t width, std::uint32_t height,
-                   const Plane& plane, std::uint32_t x0, std::uint32_t y0)
+template<SampleType type, class T>
+void scatter_plane(const std::int32_t* from, std::uint32_t width, std::uint32_t height, const Plane& plane,
+                   std::uint32_t x0, std::uint32_t y0)
 {
     for (std::uint32_t y = 0; y < height; ++y) {
         auto* to = static_cast<std::uint8_t*>(plane.data) + std::ptrdiff_t(y0 + y) * plane.y_stride
@@ -168,10 +168,14 @@ void scatter(SampleType type, std::vector<std::int32_t>& integers, std::uint32_t
         for (std::int32_t& v : integers)
             v = std::clamp(v, low, high);
     }
-    switch (size_of(type)) {
-    case 1: scatter_plane<std::uint8_t>(type, integers.data(), width, height, plane, x, y); break;
-    case 2: scatter_plane<std::uint16_t>(type, integers.data(), width, height, plane, x, y); break;
-    default: scatter_plane<std::uint32_t>(type, integers.data(), width, height, plane, x, y);
+    using S = SampleType;
+    const std::int32_t* from = integers.data();
+    switch (type) {
+    case S::uint8: scatter_plane<S::uint8, std::uint8_t>(from, width, height, plane, x, y); break;
+    case S::uint16: scatter_plane<S::uint16, std::uint16_t>(from, width, height, plane, x, y); break;
+    case S::half: scatter_plane<S::half, std::uint16_t>(from, width, height, plane, x, y); break;
+    case S::uint32: scatter_plane<S::uint32, std::uint32_t>(from, width, height, plane, x, y); break;
+    case S::float32: scatter_plane<S::float32, std::uint32_t>(from, width, height, plane, x, y); break;
     }
 }
 

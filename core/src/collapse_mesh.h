@@ -18,9 +18,10 @@ struct alignas(64) AlignedRing : Ring {};
 
 /// The ring that merging t and u leaves: from vr along t's side to vl (place `vl`), then along u's.
 struct Star {
-    int degree, vl;
-    Index ring[kMaxDegree];
-    Point points[kMaxDegree];
+    int degree = 0, vl = 0;
+    Index ring[kMaxDegree] = {};
+    Point points[kMaxDegree] = {};
+    std::int64_t areas[kMaxDegree] = {};  ///< twice that of each face of the merged vertex; is_place_ok() finds them
 };
 
 class CollapseMesh {
@@ -31,38 +32,47 @@ public:
     void connect(const std::vector<std::uint8_t>& falling);
 
     Point extent() const { return { (m_width - 1) * kSubpixels, (m_height - 1) * kSubpixels }; }
-    Index size() const { return Index(points.size()); }
-    bool alive(Index v) const { return degrees[v] > 0; }
+    Index size() const { return Index(vertices.size()); }
+    bool alive(Index v) const { return vertices[v].degree > 0; }
+    /// Keeps only these vertices (increasing, all that are alive) and numbers them anew, in the same order: what is still at work
+    /// lies together.
+    void keep(const std::vector<Index>& survivors);
 
     /// False when t and u are no neighbours or merging them would break the mesh.
     bool load_star(Index t, Index u, Star& star) const;
     /// Whether every triangle stays positive and the sides of the picture keep their vertices.
-    bool is_place_ok(const Star& star, Index t, Index u, Point s) const;
+    bool is_place_ok(Star& star, Index t, Index u, Point s) const;
     void collapse(const Star& star, Index t, Index u, Point s);
     /// Neighbours of t with larger numbers, nearest first, then by number.
     struct Candidates {
         int count = 0;
-        Index vertex[kMaxDegree];
+        Index nearest = kGhost;
         std::uint32_t klass = 0;  ///< under which the choice is coded: how many, and how clear the nearest is
     };
     Candidates candidates(Index t) const;
+    /// Number `choice` of them, or kGhost.
+    Index candidate(Index t, std::uint32_t choice) const;
 
     /// Brings what a collapse at v will touch nearer: first its own ring, a few collapses later its neighbours'.
     void prefetch(Index v) const
     {
         __builtin_prefetch(&rings[v]);
-        __builtin_prefetch(&points[v]);
+        __builtin_prefetch(&vertices[v]);
     }
     void prefetch_ring(Index v) const
     {
-        for (int j = 0; j < degrees[v]; ++j)
+        for (int j = 0; j < vertices[v].degree; ++j)
             if (const Index q = rings[v].v[std::size_t(j)]; q != kGhost)
                 prefetch(q);
     }
 
+    struct Vertex {
+        Point at;
+        Index pixel;       ///< it began as
+        std::int32_t degree;  ///< of its ring; 0: merged into another
+    };
     std::vector<AlignedRing> rings;
-    std::vector<std::uint8_t> degrees;  ///< 0: merged into another
-    std::vector<Point> points;
+    std::vector<Vertex> vertices;
 
 private:
     int m_width, m_height;

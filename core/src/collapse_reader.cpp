@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 #include "binary_coder.h"
 #include "collapse_mesh.h"
@@ -20,9 +21,10 @@ struct VolumeShares {
     float ring[kMaxDegree], u;
 };
 
-VolumeShares volume_shares(const Star& star, Point t, Point u, Point s)
+void volume_shares(const Star& star, Point t, Point u, VolumeShares& shares)
 {
-    double share[kMaxDegree] = {};
+    double share[kMaxDegree];
+    std::fill_n(share, star.degree, 0.0);
     double whole = 0.0, of_u = 0.0;
     for (int i = 0; i < star.degree; ++i) {
         const int next = i + 1 < star.degree ? i + 1 : 0;
@@ -30,7 +32,7 @@ VolumeShares volume_shares(const Star& star, Point t, Point u, Point s)
             continue;
         const bool with_u = i >= star.vl;
         const double before = double(doubled_area(with_u ? u : t, star.points[i], star.points[next]));
-        const double after = double(doubled_area(s, star.points[i], star.points[next]));
+        const double after = double(star.areas[i]);
         whole += after;
         of_u += with_u ? before : 0.0;
         share[i] += before - after;
@@ -43,12 +45,33 @@ VolumeShares volume_shares(const Star& star, Point t, Point u, Point s)
         of_u += gone;
         share[i] += gone;
     }
-    VolumeShares shares;
     const double scale = whole > 0.0 ? 1.0 / whole : 0.0;
     for (int i = 0; i < star.degree; ++i)
         shares.ring[i] = float(share[i] * scale);
     shares.u = float(of_u * scale);
-    return shares;
+}
+
+/// As project(), with the areas of the faces at hand.
+Projection project_onto(const Star& star, Point s, Point p)
+{
+    const std::int64_t px = p.x - s.x, py = p.y - s.y;
+    const auto side = [&](int i) { return (star.points[i].x - s.x) * py - (star.points[i].y - s.y) * px; };
+    Projection found { kGhost, kGhost, 0.0f, 0.0f };
+    const std::int64_t first = side(0);
+    std::int64_t b = first;
+    for (int i = 0; i < star.degree; ++i) {
+        const int next = i + 1 < star.degree ? i + 1 : 0;
+        const std::int64_t after = next > 0 ? side(next) : first, a = -after;
+        const bool holds = a >= 0 && b >= 0;
+        if (star.ring[i] != kGhost && star.ring[next] != kGhost && (holds || found.a == kGhost)) {
+            const double area = double(star.areas[i]);
+            found = { star.ring[i], star.ring[next], float(double(a) / area), float(double(b) / area) };
+            if (holds)
+                break;
+        }
+        b = after;
+    }
+    return found;
 }
 
 class SequenceReader {
@@ -67,9 +90,10 @@ private:
     bool read_start(const std::uint8_t* initial, std::size_t size, SymbolReader& diagonals,
                     const std::vector<std::int32_t>& guide);
     void read_diagonals(SymbolReader& in, const std::vector<std::int32_t>& guide);
+    void keep_alive();
     bool read_batch(ByteReader& heads);
     bool read_collapse(Index t);
-    void analyse_collapse(const Star& star, Index t, Index u, Point s);
+    void analyse_collapse(Index t, Index u);
     Status finish(Hierarchy& h, std::vector<Bands>& bands);
 
     Hierarchy m_h;
@@ -81,6 +105,8 @@ private:
     std::vector<Index> m_batch;  ///< t of each collapse of the batch at hand
     std::vector<Index> m_born;  ///< u of each collapse
     SymbolReader m_gap, m_choice, m_x, m_y;
+    Star m_star;
+    VolumeShares m_shares {};
     Index m_vertices = 0;  ///< of the mesh the sequence starts from
     std::uint32_t m_shift = 0;
     float m_cost = 0.0f;
@@ -115,11 +141,13 @@ void SequenceReader::read_diagonals(SymbolReader& in, const std::vector<std::int
     m_mesh.connect(falling);
 }
 
-void SequenceReader::analyse_collapse(const Star& star, Index t, Index u, Point s)
+void SequenceReader::analyse_collapse(Index t, Index u)
 {
     if (m_values.empty())
         return;
-    const VolumeShares shares = volume_shares(star, m_mesh.points[t], m_mesh.points[u], s);
+    const Star& star = m_star;
+    VolumeShares& shares = m_shares;
+    volume_shares(star, m_mesh.vertices[t].at, m_mesh.vertices[u].at, shares);
     for (std::size_t c = 0; c < m_values.size(); ++c) {
         float* z = m_values[c].data();
         const float zt = z[t], zu = z[u];
@@ -140,11 +168,11 @@ bool SequenceReader::read_collapse(Index t)
     const std::uint32_t choice = m_choice.next(near.klass);
     if (choice >= std::uint32_t(near.count))
         return false;
-    const Index u = near.vertex[choice];
-    Star star;
+    const Index u = choice == 0 ? near.nearest : m_mesh.candidate(t, choice);
+    Star& star = m_star;
     if (!m_mesh.load_star(t, u, star))
         return false;
-    const Point pt = m_mesh.points[t], pu = m_mesh.points[u], e = m_mesh.extent();
+    const Point pt = m_mesh.vertices[t].at, pu = m_mesh.vertices[u].at, e = m_mesh.extent();
     const CollapseClasses k = collapse_classes(pt, pu, e);
     Point s { expected(pt.x, pu.x, e.x), expected(pt.y, pu.y, e.y) };
     const auto moved = [&](SymbolReader& in, std::uint32_t klass, std::int32_t from, std::int32_t most) {
@@ -157,15 +185,29 @@ bool SequenceReader::read_collapse(Index t)
         s.y = moved(m_y, k.y, s.y, e.y);
     if (!m_mesh.is_place_ok(star, t, u, s))
         return false;
-    const Projection at_t = project(pt, s, star.degree, star.ring, star.points);
-    const Projection at_u = project(pu, s, star.degree, star.ring, star.points);
-    m_h.splits.push_back({ t, star.ring[star.vl], star.ring[0], pt, pu });
-    m_h.stencils.push_back({ t, at_t.a, at_t.b, at_u.a, at_u.b, at_t.wa, at_t.wb, at_u.wa, at_u.wb });
+    const Projection at_t = project_onto(star, s, pt);
+    const Projection at_u = project_onto(star, s, pu);
+    const auto pixel = [&](Index v) { return v == kGhost ? kGhost : m_mesh.vertices[v].pixel; };
+    m_h.splits.push_back({ pixel(t), pixel(star.ring[star.vl]), pixel(star.ring[0]), pt, pu });
+    m_h.stencils.push_back({ pixel(t), pixel(at_t.a), pixel(at_t.b), pixel(at_u.a), pixel(at_u.b), at_t.wa, at_t.wb,
+                             at_u.wa, at_u.wb });
     m_h.costs.push_back(m_cost);
-    m_born.push_back(u);
-    analyse_collapse(star, t, u, s);
+    m_born.push_back(pixel(u));
+    analyse_collapse(t, u);
     m_mesh.collapse(star, t, u, s);
     return true;
+}
+
+/// Drops merged vertices, so that the others lie close to each other.
+void SequenceReader::keep_alive()
+{
+    m_mesh.keep(m_alive);
+    for (std::vector<float>& z : m_values) {
+        for (std::size_t i = 0; i < m_alive.size(); ++i)
+            z[i] = z[m_alive[i]];
+        z.resize(m_alive.size());
+    }
+    std::iota(m_alive.begin(), m_alive.end(), Index(0));
 }
 
 bool SequenceReader::read_batch(ByteReader& heads)
@@ -179,6 +221,8 @@ bool SequenceReader::read_batch(ByteReader& heads)
     if (!heads.ok() || count < 1 || count > m_alive.size() || !(cost >= m_cost) || !std::isfinite(cost))
         return false;
     m_cost = cost;
+    if (2 * m_alive.size() < m_mesh.size())
+        keep_alive();
     const std::uint32_t density = class_of(std::uint32_t(m_alive.size() / count));
     m_batch.clear();
     std::size_t at = 0;
@@ -229,11 +273,14 @@ Status SequenceReader::read_chunk(ByteSpan chunk, const std::vector<std::int32_t
 /// Numbers the vertices, base first and then by the split that makes each, and turns the sequence around.
 Status SequenceReader::finish(Hierarchy& h, std::vector<Bands>& bands)
 {
-    std::vector<Index> number(m_mesh.size(), kGhost);
-    Index base = 0;
-    for (Index v = 0; v < m_mesh.size(); ++v)
-        if (m_mesh.alive(v))
-            number[v] = base++;
+    m_alive.erase(std::remove_if(m_alive.begin(), m_alive.end(), [&](Index v) { return !m_mesh.alive(v); }),
+                  m_alive.end());
+    keep_alive();
+    const std::size_t pixels = m_h.mesh_pixels();
+    const Index base = m_mesh.size();
+    std::vector<Index> number(pixels, kGhost);  // of each pixel
+    for (Index v = 0; v < base; ++v)
+        number[m_mesh.vertices[v].pixel] = v;
     const Level levels = Level(m_born.size());
     for (Level i = 0; i < levels; ++i)
         number[m_born[i]] = base + levels - 1 - i;
@@ -251,24 +298,20 @@ Status SequenceReader::finish(Hierarchy& h, std::vector<Bands>& bands)
         for (Index* v : { &k.s, &k.at, &k.bt, &k.au, &k.bu })
             *v = number[*v];
     m_h.pixels.resize(m_vertices);
-    for (Index v = 0; v < m_mesh.size(); ++v)
-        if (number[v] != kGhost)
-            m_h.pixels[number[v]] = v;
-    for (Bands& b : m_bands) {
-        std::reverse(b.details.begin(), b.details.end());
-        b.base.resize(base);
+    for (Index pixel = 0; pixel < pixels; ++pixel)
+        if (number[pixel] != kGhost)
+            m_h.pixels[number[pixel]] = pixel;
+    for (std::size_t c = 0; c < m_bands.size(); ++c) {
+        std::reverse(m_bands[c].details.begin(), m_bands[c].details.end());
+        m_bands[c].base = std::move(m_values[c]);
     }
-    for (Index v = 0; v < m_mesh.size(); ++v) {
-        if (!m_mesh.alive(v))
-            continue;
-        m_h.base_points.push_back(m_mesh.points[v]);
-        for (std::size_t c = 0; c < m_bands.size(); ++c)
-            m_bands[c].base[number[v]] = m_values[c][v];
-        const int degree = m_mesh.degrees[v];
+    for (Index v = 0; v < base; ++v) {
+        m_h.base_points.push_back(m_mesh.vertices[v].at);
+        const int degree = m_mesh.vertices[v].degree;
         for (int j = 0; j < degree; ++j) {
             const Index a = m_mesh.rings[v].v[std::size_t(j)], b = m_mesh.rings[v].v[std::size_t((j + 1) % degree)];
             if (a != kGhost && b != kGhost && v < a && v < b)
-                m_h.base_triangles.push_back({ number[v], number[a], number[b] });
+                m_h.base_triangles.push_back({ v, a, b });
         }
     }
     const Status status = find_pixels_between(m_h);

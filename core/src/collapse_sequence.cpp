@@ -3,6 +3,8 @@
 #include "collapse_sequence.h"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "codec_samples.h"
 #include "collapse_mesh.h"
@@ -35,11 +37,10 @@ CollapseMesh::CollapseMesh(int width, int height) : m_width(width), m_height(hei
 {
     const std::size_t n = std::size_t(width) * std::size_t(height);
     rings.resize(n);
-    degrees.resize(n);
-    points.resize(n);
+    vertices.reserve(n);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
-            points[std::size_t(y) * std::size_t(width) + std::size_t(x)] = { x * kSubpixels, y * kSubpixels };
+            vertices.push_back({ { x * kSubpixels, y * kSubpixels }, Index(vertices.size()), 0 });
 }
 
 void CollapseMesh::connect(const std::vector<std::uint8_t>& falling)
@@ -67,14 +68,31 @@ void CollapseMesh::connect(const std::vector<std::uint8_t>& falling)
                     continue;
                 ring.v[std::size_t(degree++)] = Index(std::size_t(qy) * std::size_t(m_width) + std::size_t(qx));
             }
-            degrees[v] = std::uint8_t(degree);
+            vertices[v].degree = degree;
         }
+}
+
+void CollapseMesh::keep(const std::vector<Index>& survivors)
+{
+    std::vector<Index> number(size(), kGhost);
+    for (std::size_t i = 0; i < survivors.size(); ++i)
+        number[survivors[i]] = Index(i);
+    for (std::size_t i = 0; i < survivors.size(); ++i) {
+        vertices[i] = vertices[survivors[i]];
+        rings[i] = rings[survivors[i]];
+        for (int j = 0; j < vertices[i].degree; ++j) {
+            Index& q = rings[i].v[std::size_t(j)];
+            q = q == kGhost ? kGhost : number[q];
+        }
+    }
+    vertices.resize(survivors.size());
+    rings.resize(survivors.size());
 }
 
 bool CollapseMesh::load_star(Index t, Index u, Star& star) const
 {
     const Ring &ring_t = rings[t], &ring_u = rings[u];
-    const int degree_t = degrees[t], degree_u = degrees[u];
+    const int degree_t = vertices[t].degree, degree_u = vertices[u].degree;
     const int n = degree_t + degree_u - 4;
     if (n < 3 || n > kMaxDegree)
         return false;
@@ -95,69 +113,84 @@ bool CollapseMesh::load_star(Index t, Index u, Star& star) const
     }
     star.degree = n;
     for (Index q : { star.ring[0], star.ring[star.vl] })
-        if (q != kGhost && degrees[q] <= 3)
+        if (q != kGhost && vertices[q].degree <= 3)
             return false;
     for (int i = 0; i < n; ++i)
-        star.points[i] = star.ring[i] == kGhost ? Point {} : points[star.ring[i]];
+        star.points[i] = star.ring[i] == kGhost ? Point {} : vertices[star.ring[i]].at;
     return true;
 }
 
-bool CollapseMesh::is_place_ok(const Star& star, Index t, Index u, Point s) const
+bool CollapseMesh::is_place_ok(Star& star, Index t, Index u, Point s) const
 {
     const Point e = extent();
     const auto sides = [&](Point p) {
         return (p.x == 0 ? 1 : p.x == e.x ? 2 : 0) | (p.y == 0 ? 4 : p.y == e.y ? 8 : 0);
     };
-    if (s.x < 0 || s.y < 0 || s.x > e.x || s.y > e.y || sides(s) != (sides(points[t]) | sides(points[u])))
+    if (s.x < 0 || s.y < 0 || s.x > e.x || s.y > e.y || sides(s) != (sides(vertices[t].at) | sides(vertices[u].at)))
         return false;
+    bool positive = true;
     for (int i = 0; i < star.degree; ++i) {
         const int next = i + 1 < star.degree ? i + 1 : 0;
-        if (star.ring[i] != kGhost && star.ring[next] != kGhost
-            && doubled_area(s, star.points[i], star.points[next]) <= 0)
-            return false;
+        star.areas[i] = doubled_area(s, star.points[i], star.points[next]);
+        positive &= star.areas[i] > 0 || star.ring[i] == kGhost || star.ring[next] == kGhost;
     }
-    return true;
+    return positive;
 }
 
 void CollapseMesh::collapse(const Star& star, Index t, Index u, Point s)
 {
     for (int i = star.vl + 1; i < star.degree; ++i)
         if (star.ring[i] != kGhost)
-            replace(rings[star.ring[i]], degrees[star.ring[i]], u, t);
+            replace(rings[star.ring[i]], vertices[star.ring[i]].degree, u, t);
     for (int i : { 0, star.vl }) {
         const Index q = star.ring[i];
-        if (q != kGhost)
-            degrees[q] = std::uint8_t(remove_at(rings[q], degrees[q], find(rings[q], degrees[q], u)));
+        if (q != kGhost) {
+            std::int32_t& degree = vertices[q].degree;
+            degree = remove_at(rings[q], degree, find(rings[q], degree, u));
+        }
     }
     std::copy(star.ring, star.ring + star.degree, rings[t].v.begin());
-    degrees[t] = std::uint8_t(star.degree);
-    degrees[u] = 0;
-    points[t] = s;
+    vertices[t].degree = star.degree;
+    vertices[u].degree = 0;
+    vertices[t].at = s;
 }
 
 CollapseMesh::Candidates CollapseMesh::candidates(Index t) const
 {
     Candidates found;
-    std::int64_t length[kMaxDegree];
-    for (int j = 0; j < degrees[t]; ++j) {
+    const Point at = vertices[t].at;
+    std::int64_t least = 0, second = 0;
+    for (int j = 0; j < vertices[t].degree; ++j) {
         const Index q = rings[t].v[std::size_t(j)];
         if (q == kGhost || q < t)
             continue;
-        const std::int64_t dx = points[q].x - points[t].x, dy = points[q].y - points[t].y;
-        const std::int64_t l = dx * dx + dy * dy;
-        int k = found.count++;
-        for (; k > 0 && (length[k - 1] > l || (length[k - 1] == l && found.vertex[k - 1] > q)); --k) {
-            length[k] = length[k - 1];
-            found.vertex[k] = found.vertex[k - 1];
-        }
-        length[k] = l;
-        found.vertex[k] = q;
+        const std::int64_t dx = vertices[q].at.x - at.x, dy = vertices[q].at.y - at.y, l = dx * dx + dy * dy;
+        const bool nearer = found.count == 0 || l < least || (l == least && q < found.nearest);
+        second = nearer ? least : found.count == 1 ? l : std::min(second, l);
+        least = nearer ? l : least;
+        found.nearest = nearer ? q : found.nearest;
+        ++found.count;
     }
     std::uint32_t clear = 0;
     if (found.count > 1)
-        clear = length[1] == length[0] ? 0 : 2 * length[1] < 3 * length[0] ? 1 : length[1] < 3 * length[0] ? 2 : 3;
+        clear = second == least ? 0 : 2 * second < 3 * least ? 1 : second < 3 * least ? 2 : 3;
     found.klass = 4 * std::uint32_t(found.count) + clear;
     return found;
+}
+
+Index CollapseMesh::candidate(Index t, std::uint32_t choice) const
+{
+    std::array<std::pair<std::int64_t, Index>, kMaxDegree> found;
+    std::size_t count = 0;
+    for (int j = 0; j < vertices[t].degree; ++j) {
+        const Index q = rings[t].v[std::size_t(j)];
+        if (q == kGhost || q < t)
+            continue;
+        const std::int64_t dx = vertices[q].at.x - vertices[t].at.x, dy = vertices[q].at.y - vertices[t].at.y;
+        found[count++] = { dx * dx + dy * dy, q };
+    }
+    std::sort(found.begin(), found.begin() + std::ptrdiff_t(count));
+    return choice < count ? found[choice].second : kGhost;
 }
 
 CollapseClasses collapse_classes(Point t, Point u, Point extent)

@@ -140,7 +140,7 @@ public:
 
 private:
     bool write_batch(const Collapse* first, const Collapse* last, float cost);
-    bool find_place(const Star& star, const Collapse& c, Point& s) const;
+    bool find_place(Star& star, const Collapse& c, Point& s) const;
 
     CollapseMesh m_mesh;
     std::uint32_t m_shift;
@@ -148,10 +148,10 @@ private:
     Streams m_streams;
 };
 
-bool SequenceWriter::find_place(const Star& star, const Collapse& c, Point& s) const
+bool SequenceWriter::find_place(Star& star, const Collapse& c, Point& s) const
 {
     const Point e = m_mesh.extent();
-    const CollapseClasses free = collapse_classes(m_mesh.points[c.t], m_mesh.points[c.u], e);
+    const CollapseClasses free = collapse_classes(m_mesh.vertices[c.t].at, m_mesh.vertices[c.u].at, e);
     const std::int32_t half = 1 << m_shift >> 1;
     for (std::int32_t reach = 0; reach <= 3; ++reach)
         for (std::int32_t dy = -reach; dy <= reach; ++dy)
@@ -184,13 +184,15 @@ bool SequenceWriter::write_batch(const Collapse* first, const Collapse* last, fl
         ++at;
         m_streams.gap.add(density, gap);
         const CollapseMesh::Candidates near = m_mesh.candidates(c->t);
-        m_streams.choice.add(near.klass,
-                             std::uint32_t(std::find(near.vertex, near.vertex + near.count, c->u) - near.vertex));
+        std::uint32_t choice = 0;
+        if (c->u != near.nearest)
+            while (m_mesh.candidate(c->t, ++choice) != c->u) {}
+        m_streams.choice.add(near.klass, choice);
         Star star;
         Point s;
         if (!m_mesh.load_star(c->t, c->u, star) || !find_place(star, *c, s))
             return false;
-        const Point t = m_mesh.points[c->t], u = m_mesh.points[c->u], e = m_mesh.extent();
+        const Point t = m_mesh.vertices[c->t].at, u = m_mesh.vertices[c->u].at, e = m_mesh.extent();
         const CollapseClasses k = collapse_classes(t, u, e);
         if (k.x_free)
             m_streams.x.add(k.x, fold((s.x >> m_shift) - (expected(t.x, u.x, e.x) >> m_shift)));

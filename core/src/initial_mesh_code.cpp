@@ -65,7 +65,7 @@ Box box_of_circle(Point a, Point b, Point c)
 {
     const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
     const double d = 2.0 * (bx * cy - by * cx), bb = bx * bx + by * by, cc = cx * cx + cy * cy;
-    const double x = (cy * bb - by * cc) / d, y = (bx * cc - cx * bb) / d, r = std::hypot(x, y);
+    const double x = (cy * bb - by * cc) / d, y = (bx * cc - cx * bb) / d, r = std::sqrt(x * x + y * y);
     double low[2] = { std::min(0.0, bx), std::min(0.0, by) }, high[2] = { std::max(0.0, bx), std::max(0.0, by) };
     for (int k = 0; k < 4; ++k) {
         const double ex = x + (k == 0 ? r : k == 1 ? -r : 0.0), ey = y + (k == 2 ? r : k == 3 ? -r : 0.0);
@@ -87,7 +87,7 @@ class Apexes {
 public:
     explicit Apexes(const ChosenPixels& chosen) : m_chosen(chosen) {}
 
-    const std::vector<Point>& find(Point a, Point b)
+    std::vector<Point>& find(Point a, Point b)
     {
         m_found.clear();
         const int width = m_chosen.width, height = m_chosen.height;
@@ -104,17 +104,21 @@ public:
         }
         if (m_found.empty())
             return m_found;
-        const Box all = box_of_circle(a, b, m_found[0]).clipped(width, height), seen = box.clipped(width, height);
-        if (all.x0 < seen.x0 || all.x1 > seen.x1 || all.y0 < seen.y0 || all.y1 > seen.y1) {
-            const Point first = m_found[0];
-            m_found.assign(1, first);
-            for (int y = all.y0; y <= all.y1; ++y) {
-                const Box now = box_of_circle(a, b, m_found[0]).clipped(width, height);
-                if (y >= now.y0 && y <= now.y1)
-                    look(a, b, y, now.x0, now.x1);
+        Box now = box_of_circle(a, b, m_found[0]).clipped(width, height);
+        const Box seen = box.clipped(width, height);
+        if (now.x0 < seen.x0 || now.x1 > seen.x1 || now.y0 < seen.y0 || now.y1 > seen.y1) {
+            m_found.resize(1);
+            for (int y = now.y0; y <= now.y1; ++y) {
+                const Point best = m_found[0];
+                look(a, b, y, now.x0, now.x1);
+                if (m_found[0] != best) {
+                    const Box smaller = box_of_circle(a, b, m_found[0]).clipped(width, height);
+                    now = { smaller.x0, smaller.x1, y, smaller.y1 };
+                }
             }
         }
-        std::sort(m_found.begin(), m_found.end(), [&](Point p, Point q) { return doubled_area(b, p, q) > 0; });
+        if (m_found.size() > 1)
+            std::sort(m_found.begin(), m_found.end(), [&](Point p, Point q) { return doubled_area(b, p, q) > 0; });
         return m_found;
     }
 
@@ -233,6 +237,7 @@ private:
     const Original* m_original;
     const int m_width, m_height;
     ChosenPixels m_chosen;
+    Apexes m_apexes { m_chosen };
     std::vector<Index> m_vertices, m_rank;
     std::vector<Fan> m_fans;
     std::unique_ptr<Models> m_models;
@@ -269,9 +274,8 @@ bool Walk<Io>::code_pixels()
 template<class Io>
 Index Walk<Io>::code_apex(Index a, Index b)
 {
-    Apexes apexes(m_chosen);
     const Point pa = point(a), pb = point(b);
-    std::vector<Point> found = apexes.find(pa, pb);
+    std::vector<Point>& found = m_apexes.find(pa, pb);
     NumberModel* model = &m_models->choice[std::min<std::size_t>(found.size(), 7)];
     if (found.size() == 2) {
         const std::int64_t first = jump(pa, found[0]), second = jump(pb, found[1]);
@@ -331,7 +335,7 @@ bool Walk<Io>::connect()
         int degree = 0;
         if (!m_fans[r].close(side, m_mesh.rings[v].v.data(), degree))
             return false;
-        m_mesh.degrees[v] = std::uint8_t(degree);
+        m_mesh.vertices[v].degree = degree;
     }
     return true;
 }
