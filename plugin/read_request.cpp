@@ -76,10 +76,7 @@ public:
     }
     bool check(std::string& error) const override
     {
-        Level level = 0;
-        if constexpr (std::is_base_of_v<LevelOptions, Options>)
-            return ImageBufAlgo::find_level({}, m_options, level, error);
-        return true;
+        return check_options(m_options, error);
     }
     bool run(ImageBuf& dst, const ProgressiveImage& src, int nthreads) const override
     {

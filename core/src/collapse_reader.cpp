@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numeric>
 
 #include "binary_coder.h"
 #include "collapse_mesh.h"
@@ -23,32 +22,32 @@ struct VolumeShares {
 
 void volume_shares(const Star& star, Point t, Point u, VolumeShares& shares)
 {
-    double share[kMaxDegree];
-    std::fill_n(share, star.degree, 0.0);
-    double whole = 0.0, of_u = 0.0;
+    std::int64_t share[kMaxDegree];
+    std::fill_n(share, star.degree, 0);
+    std::int64_t whole = 0, of_u = 0;
     for (int i = 0; i < star.degree; ++i) {
         const int next = i + 1 < star.degree ? i + 1 : 0;
         if (star.ring[i] == kGhost || star.ring[next] == kGhost)
             continue;
         const bool with_u = i >= star.vl;
-        const double before = double(doubled_area(with_u ? u : t, star.points[i], star.points[next]));
-        const double after = double(star.areas[i]);
-        whole += after;
-        of_u += with_u ? before : 0.0;
-        share[i] += before - after;
-        share[next] += before - after;
+        const std::int64_t before = doubled_area(with_u ? u : t, star.points[i], star.points[next]);
+        const std::int64_t lost = before - star.areas[i];
+        whole += star.areas[i];
+        of_u += with_u ? before : 0;
+        share[i] += lost;
+        share[next] += lost;
     }
     for (int i : { 0, star.vl }) {
         if (star.ring[i] == kGhost)
             continue;
-        const double gone = std::fabs(double(doubled_area(t, u, star.points[i])));
+        const std::int64_t gone = std::abs(doubled_area(t, u, star.points[i]));
         of_u += gone;
         share[i] += gone;
     }
-    const double scale = whole > 0.0 ? 1.0 / whole : 0.0;
+    const double scale = whole > 0 ? 1.0 / double(whole) : 0.0;
     for (int i = 0; i < star.degree; ++i)
-        shares.ring[i] = float(share[i] * scale);
-    shares.u = float(of_u * scale);
+        shares.ring[i] = float(double(share[i]) * scale);
+    shares.u = float(double(of_u) * scale);
 }
 
 /// As project(), with the areas of the faces at hand.
@@ -73,6 +72,56 @@ Projection project_onto(const Star& star, Point s, Point p)
     }
     return found;
 }
+
+/// The vertices still there, as bits.
+class AliveSet {
+public:
+    void assign(const CollapseMesh& mesh)
+    {
+        m_words.assign((std::size_t(mesh.size()) + 63) / 64, 0);
+        m_count = 0;
+        for (Index v = 0; v < mesh.size(); ++v)
+            if (mesh.alive(v)) {
+                m_words[v / 64] |= std::uint64_t(1) << v % 64;
+                ++m_count;
+            }
+    }
+    void remove(Index v)
+    {
+        m_words[v / 64] &= ~(std::uint64_t(1) << v % 64);
+        --m_count;
+    }
+    std::size_t count() const { return m_count; }
+
+    /// Walks through them in order.
+    class Walk {
+    public:
+        explicit Walk(const AliveSet& set) : m_words(set.m_words), m_rest(set.m_words.empty() ? 0 : set.m_words[0]) {}
+        /// Leaves `gap` of them out and gives the next; kGhost at the end.
+        Index next(std::uint32_t gap)
+        {
+            for (std::uint32_t here; (here = std::uint32_t(__builtin_popcountll(m_rest))) <= gap; gap -= here) {
+                if (++m_word >= m_words.size())
+                    return kGhost;
+                m_rest = m_words[m_word];
+            }
+            for (; gap > 0; --gap)
+                m_rest &= m_rest - 1;
+            const Index v = Index(m_word * 64) + Index(__builtin_ctzll(m_rest));
+            m_rest &= m_rest - 1;
+            return v;
+        }
+
+    private:
+        const std::vector<std::uint64_t>& m_words;
+        std::size_t m_word = 0;
+        std::uint64_t m_rest;
+    };
+
+private:
+    std::vector<std::uint64_t> m_words;
+    std::size_t m_count = 0;
+};
 
 class SequenceReader {
 public:
@@ -101,7 +150,7 @@ private:
     const std::vector<const float*>& m_channels;
     std::vector<std::vector<float>> m_values;
     std::vector<Bands> m_bands;
-    std::vector<Index> m_alive;
+    AliveSet m_alive;
     std::vector<Index> m_batch;  ///< t of each collapse of the batch at hand
     std::vector<Index> m_born;  ///< u of each collapse
     SymbolReader m_gap, m_choice, m_x, m_y;
@@ -120,10 +169,8 @@ bool SequenceReader::read_start(const std::uint8_t* initial, std::size_t size, S
         read_diagonals(diagonals, guide);
     else if (!read_initial_mesh(initial, size, guide, m_mesh))
         return false;
-    for (Index v = 0; v < m_mesh.size(); ++v)
-        if (m_mesh.alive(v))
-            m_alive.push_back(v);
-    m_vertices = Index(m_alive.size());
+    m_alive.assign(m_mesh);
+    m_vertices = Index(m_alive.count());
     return diagonals.finished();
 }
 
@@ -195,19 +242,25 @@ bool SequenceReader::read_collapse(Index t)
     m_born.push_back(pixel(u));
     analyse_collapse(t, u);
     m_mesh.collapse(star, t, u, s);
+    m_alive.remove(u);
     return true;
 }
 
 /// Drops merged vertices, so that the others lie close to each other.
 void SequenceReader::keep_alive()
 {
-    m_mesh.keep(m_alive);
+    std::vector<Index> survivors;
+    survivors.reserve(m_alive.count());
+    AliveSet::Walk walk(m_alive);
+    for (Index v; (v = walk.next(0)) != kGhost;)
+        survivors.push_back(v);
+    m_mesh.keep(survivors);
     for (std::vector<float>& z : m_values) {
-        for (std::size_t i = 0; i < m_alive.size(); ++i)
-            z[i] = z[m_alive[i]];
-        z.resize(m_alive.size());
+        for (std::size_t i = 0; i < survivors.size(); ++i)
+            z[i] = z[survivors[i]];
+        z.resize(survivors.size());
     }
-    std::iota(m_alive.begin(), m_alive.end(), Index(0));
+    m_alive.assign(m_mesh);
 }
 
 bool SequenceReader::read_batch(ByteReader& heads)
@@ -216,21 +269,18 @@ bool SequenceReader::read_batch(ByteReader& heads)
     const std::uint32_t bits = heads.u32();
     float cost;
     std::memcpy(&cost, &bits, 4);
-    m_alive.erase(std::remove_if(m_alive.begin(), m_alive.end(), [&](Index v) { return !m_mesh.alive(v); }),
-                  m_alive.end());
-    if (!heads.ok() || count < 1 || count > m_alive.size() || !(cost >= m_cost) || !std::isfinite(cost))
+    if (!heads.ok() || count < 1 || count > m_alive.count() || !(cost >= m_cost) || !std::isfinite(cost))
         return false;
     m_cost = cost;
-    if (2 * m_alive.size() < m_mesh.size())
+    if (2 * m_alive.count() < m_mesh.size())
         keep_alive();
-    const std::uint32_t density = class_of(std::uint32_t(m_alive.size() / count));
+    const std::uint32_t density = class_of(std::uint32_t(m_alive.count() / count));
     m_batch.clear();
-    std::size_t at = 0;
-    for (std::uint64_t i = 0; i < count; ++i, ++at) {
-        at += m_gap.next(density);
-        if (at >= m_alive.size())
+    AliveSet::Walk walk(m_alive);
+    for (std::uint64_t i = 0; i < count; ++i) {
+        m_batch.push_back(walk.next(m_gap.next(density)));
+        if (m_batch.back() == kGhost)
             return false;
-        m_batch.push_back(m_alive[at]);
     }
     // Where it goes is known well ahead: memory need not be waited for.
     constexpr std::size_t kFar = 12, kNear = 5;
@@ -273,8 +323,6 @@ Status SequenceReader::read_chunk(ByteSpan chunk, const std::vector<std::int32_t
 /// Numbers the vertices, base first and then by the split that makes each, and turns the sequence around.
 Status SequenceReader::finish(Hierarchy& h, std::vector<Bands>& bands)
 {
-    m_alive.erase(std::remove_if(m_alive.begin(), m_alive.end(), [&](Index v) { return !m_mesh.alive(v); }),
-                  m_alive.end());
     keep_alive();
     const std::size_t pixels = m_h.mesh_pixels();
     const Index base = m_mesh.size();
@@ -332,7 +380,6 @@ Status SequenceReader::run(const std::vector<ByteSpan>& chunks, const std::vecto
     m_h.stencils.reserve(n);
     m_h.costs.reserve(n);
     m_born.reserve(n);
-    m_alive.reserve(n);
     m_bands.resize(m_channels.size());
     for (std::size_t c = 0; c < m_channels.size(); ++c) {
         m_values.emplace_back(m_channels[c], m_channels[c] + n);

@@ -47,6 +47,16 @@ class Catalogue(plugin_files.PluginTest):
         self.assertNotRegex(missing.stdout + missing.stderr, "undefined symbol|not found")
 
 
+    @unittest.skipUnless(shutil.which("file"), "needs file")
+    def test_file_knows_the_magic(self):
+        magic = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "core", "share", "pimg.magic")
+        write("a.pimg", scene(20, 10), "uint8", {"pimg:profile": "full"})
+        done = subprocess.run(["file", "-m", magic, "a.pimg"], capture_output=True, text=True)
+        self.assertIn("Progressive image (PIMG) data, version 1.0, full, 20 x 10, 3 channels", done.stdout)
+        done = subprocess.run(["file", "--mime-type", "-m", magic, "a.pimg"], capture_output=True, text=True)
+        self.assertIn("image/x-pimg", done.stdout)
+
+
 class Converting(plugin_files.PluginTest):
     def test_there_and_back(self):
         for name, kind in (("a.png", "uint8"), ("b.png", "uint16"), ("c.exr", "half"), ("d.tif", "float")):
@@ -64,12 +74,32 @@ class Converting(plugin_files.PluginTest):
             self.ok("idiff", "b.pimg", "c.pimg")
 
     def test_windows_survive(self):
-        write("a.exr", scene(40, 30), "half", origin=(-5, 12), full=(-20, 0, 100, 60))
-        self.ok("oiiotool", "a.exr", "-o", "a.pimg")
-        self.ok("oiiotool", "a.pimg", "-o", "b.exr")
-        self.assertEqual(opened("b.exr").spec().roi, opened("a.exr").spec().roi)
-        self.assertEqual(opened("b.exr").spec().roi_full, opened("a.exr").spec().roi_full)
-        self.assert_same("a.exr", "b.exr")
+        # Inside the display window, and larger than it.
+        for origin, full in (((-5, 12), (-20, 0, 100, 60)), ((-10, -10), (0, 0, 20, 10))):
+            write("a.exr", scene(40, 30), "half", origin=origin, full=full)
+            self.ok("oiiotool", "a.exr", "-o", "a.pimg")
+            self.ok("oiiotool", "a.pimg", "-o", "b.exr")
+            self.assertEqual(opened("b.exr").spec().roi, opened("a.exr").spec().roi)
+            self.assertEqual(opened("b.exr").spec().roi_full, opened("a.exr").spec().roi_full)
+            self.assert_same("a.exr", "b.exr")
+
+    def test_build_options_at_write_time(self):
+        write("a.exr", scene(70, 50), "half")
+        sizes = {}
+        for options in ("mesh=full", "mesh=adaptive", "mesh=adaptive density=0.1", "guide=rgb", "quality=0", "quality=100"):
+            hints = [word for pair in options.split() for word in ("--attrib", "pimg:" + pair.split("=")[0], pair.split("=")[1])]
+            for profile in ("compact", "full"):
+                self.ok("oiiotool", "a.exr", "--attrib", "pimg:profile", profile, *hints, "-o", "a.pimg")
+                self.assert_same("a.exr", "a.pimg")
+                self.assertIsNone(opened("a.pimg").spec().getattribute("pimg:mesh"))
+                sizes[options] = os.path.getsize("a.pimg")
+            # All details and what the mesh cannot show, back through the stored hierarchy.
+            self.assertLess(np.abs(read("a.pimg?detail_enhance=1") - read("a.exr")).max(), 1e-4, options)
+        self.assertLess(sizes["mesh=adaptive"], sizes["mesh=full"])
+        self.assertLess(sizes["mesh=adaptive density=0.1"], sizes["mesh=adaptive"])
+        for key, value in (("mesh", "dense"), ("density", "7"), ("guide", "blue"), ("quality", "101"), ("tile", "8")):
+            self.fails("oiiotool", "a.exr", "--attrib", "pimg:" + key, value, "-o", "no.pimg", says=[key, value])
+        self.assertFalse(os.path.exists("no.pimg"))
 
     def test_metadata_survives_and_hints_do_not(self):
         attributes = {"Artist": "somebody", "my:number": 3, "my:share": 0.25}
@@ -209,6 +239,10 @@ class Errors(plugin_files.PluginTest):
             # A hang would be the lock of OpenImageIO's list of formats, which is held while every reader is tried.
             self.fails("oiiotool", name, "-o", "out.exr", says="")
             self.fails("iinfo", name, says="")
+        # The plugin, which is asked too, adds nothing to what is said of others' files.
+        clean = {k: v for k, v in os.environ.items() if k not in ("OIIO_LIBRARY_PATH", "OPENIMAGEIO_PLUGIN_PATH")}
+        with_plugin, without = self.run_tool("iinfo", "junk.xyz"), self.run_tool("iinfo", "junk.xyz", env=clean)
+        self.assertEqual((with_plugin.stdout, with_plugin.stderr), (without.stdout, without.stderr))
         self.fails("oiiotool", "cut.pimg", "-o", "out.exr", says="partial=1")
         self.ok("oiiotool", "cut.pimg?partial=1", "-o", "part.exr")
         self.assertLess(np.abs(read("part.exr") - read("a.pimg")).mean(), 0.2)
