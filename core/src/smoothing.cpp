@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pimg/smoothing.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <pimg/piece_means.h>
+
+namespace pimg {
+
+namespace {
+
+constexpr float kFeaturePixels = 8.0f;  ///< pixels a deviation of `strength` must cover to count as a feature
+constexpr float kStartShare = 0.7f;     ///< of what the sweep removed, in the picture that diffuses
+constexpr int kDiffusionSteps = 7;      ///< reach of a Gaussian of 3 pixels
+constexpr float kLeastStrength = 1e-17f;  ///< its square is still a number
+
+/// Share of a deviation that stays: 0 well below the tolerance, 1 well above, a half at it. `square` is the
+/// squared ratio of both.
+float kept_share(float square) { return 1.0f - 1.0f / (1.0f + square * square); }
+
+/// Vertex values with the channels of a vertex side by side.
+template<int C>
+class FeatureSweep {
+public:
+    /// `tolerance`: deviation of a single pixel of which half stays.
+    FeatureSweep(const Hierarchy& hierarchy, const SmoothingSource& source, float tolerance)
+        : m_hierarchy(hierarchy), m_source(source), m_scale(1.0f / (tolerance * tolerance) / float(C)),
+          m_values(std::size_t(hierarchy.vertices()) * C)
+    {
+    }
+
+    void run();
+    void scatter(Rasters& rasters) const;
+
+private:
+    struct Sample {
+        float c[C];
+    };
+    const float* at(Index v) const { return &m_values[std::size_t(v) * C]; }
+    Sample predict(const Stencil& k, Index a, Index b, float wa, float wb) const;
+    void place(Index v, Sample predicted, const Sample& mean, float evidence);
+
+    const Hierarchy& m_hierarchy;
+    const SmoothingSource& m_source;
+    float m_scale;
+    std::vector<float> m_values;
+};
+
+template<int C>
+typename FeatureSweep<C>::Sample FeatureSweep<C>::predict(const Stencil& k, Index a, Index b, float wa, float wb) const
+{
+    const float *s = at(k.s), *pa = at(a), *pb = at(b);
+    Sample p;
+    for (int c = 0; c < C; ++c)
+        p.c[c] = s[c] + (wa * (pa[c] - s[c]) + wb * (pb[c] - s[c]));
+    return p;
+}
+
+template<int C>
+void FeatureSweep<C>::place(Index v, Sample predicted, const Sample& mean, float evidence)
+{
+    float square = 0.0f;
+    for (int c = 0; c < C; ++c)
+        square += (mean.c[c] - predicted.c[c]) * (mean.c[c] - predicted.c[c]);
+    const float share = kept_share(square * m_scale * evidence);
+    for (int c = 0; c < C; ++c)
+        m_values[std::size_t(v) * C + std::size_t(c)] = predicted.c[c] + share * (mean.c[c] - predicted.c[c]);
+}
+
+template<int C>
+void FeatureSweep<C>::run()
+{
+    const Index base = m_hierarchy.base_vertices();
+    const Detail* means[C];
+    for (int c = 0; c < C; ++c) {
+        const Bands& bands = m_source.means[std::size_t(c)];
+        means[c] = bands.details.data();
+        for (Index v = 0; v < base; ++v)
+            m_values[std::size_t(v) * C + std::size_t(c)] = bands.base[v];
+    }
+    for (Level i = 0; i < m_hierarchy.levels(); ++i) {
+        const Stencil& k = m_hierarchy.stencils[i];
+        const Detail evidence = m_source.evidence[i];
+        Sample mean_t, mean_u;
+        for (int c = 0; c < C; ++c) {
+            mean_t.c[c] = means[c][i].t;
+            mean_u.c[c] = means[c][i].u;
+        }
+        const Sample t = predict(k, k.at, k.bt, k.wat, k.wbt), u = predict(k, k.au, k.bu, k.wau, k.wbu);
+        place(k.s, t, mean_t, evidence.t);
+        place(base + i, u, mean_u, evidence.u);
+    }
+}
+
+template<int C>
+void FeatureSweep<C>::scatter(Rasters& rasters) const
+{
+    rasters.resize(C);
+    for (std::vector<float>& raster : rasters)
+        raster.resize(m_hierarchy.mesh_pixels());
+    for (Index v = 0; v < m_hierarchy.vertices(); ++v)
+        for (int c = 0; c < C; ++c)
+            rasters[std::size_t(c)][m_hierarchy.pixels[v]] = at(v)[c];
+}
+
+template<int C>
+void run_sweep(const Hierarchy& hierarchy, const SmoothingSource& source, float strength, Rasters& features)
+{
+    FeatureSweep<C> sweep(hierarchy, source, kFeaturePixels * std::max(strength, kLeastStrength));
+    sweep.run();
+    sweep.scatter(features);
+}
+
+}  // namespace
+
+std::size_t SmoothingSource::memory() const
+{
+    std::size_t total = evidence.capacity() * sizeof(Detail);
+    for (const std::vector<float>& raster : samples)
+        total += raster.capacity() * sizeof(float);
+    for (const Bands& bands : means)
+        total += bands.base.capacity() * sizeof(float) + bands.details.capacity() * sizeof(Detail);
+    return total;
+}
+
+SmoothingSource analyse_for_smoothing(const Hierarchy& hierarchy, Rasters samples)
+{
+    SmoothingSource source;
+    source.evidence = piece_sizes(hierarchy);
+    for (Detail& d : source.evidence)
+        d = { d.t * d.t, d.u * d.u };
+    for (const std::vector<float>& channel : samples)
+        source.means.push_back(piece_means(hierarchy, channel.data()));
+    source.samples = std::move(samples);
+    return source;
+}
+
+void feature_sweep(const Hierarchy& hierarchy, const SmoothingSource& source, float strength, Rasters& features)
+{
+    switch (source.samples.size()) {
+    case 1: return run_sweep<1>(hierarchy, source, strength, features);
+    case 2: return run_sweep<2>(hierarchy, source, strength, features);
+    case 3: return run_sweep<3>(hierarchy, source, strength, features);
+    default: return run_sweep<4>(hierarchy, source, strength, features);
+    }
+}
+
+void smooth(const Hierarchy& hierarchy, const SmoothingSource& source, float strength, const ParallelFor& parallel,
+            Rasters& result)
+{
+    if (!(strength > 0.0f)) {
+        result = source.samples;
+        return;
+    }
+    Rasters features, start = source.samples;
+    feature_sweep(hierarchy, source, strength, features);
+    for (std::size_t c = 0; c < start.size(); ++c)
+        for (std::size_t i = 0; i < start[c].size(); ++i)
+            start[c][i] = features[c][i] + kStartShare * (start[c][i] - features[c][i]);
+    DiffusionOptions options;
+    options.contrast = std::max(strength, kLeastStrength);
+    options.steps = kDiffusionSteps;
+    options.parallel = parallel;
+    diffuse(features, hierarchy.mesh_width(), hierarchy.mesh_height(), options, start, result);
+}
+
+float noise_level(const Rasters& samples, int width, int height)
+{
+    double sum = 0.0;
+    for (const std::vector<float>& z : samples) {
+        std::vector<float> differences;
+        for (std::size_t y = 0; y + 1 < std::size_t(height); ++y)
+            for (std::size_t i = y * std::size_t(width); i + 1 < (y + 1) * std::size_t(width); ++i) {
+                const std::size_t below = i + std::size_t(width);
+                differences.push_back(std::fabs((z[i] - z[i + 1]) - (z[below] - z[below + 1])));
+            }
+        if (differences.empty())
+            return 0.0f;
+        const auto middle = differences.begin() + std::ptrdiff_t(differences.size() / 2);
+        std::nth_element(differences.begin(), middle, differences.end());
+        // The median of |normal| is 0.6745 sigma, and the difference of four samples has twice their sigma.
+        const double sigma = double(*middle) / (2.0 * 0.6745);
+        sum += sigma * sigma;
+    }
+    return samples.empty() ? 0.0f : float(std::sqrt(sum / double(samples.size())));
+}
+
+}  // namespace pimg
