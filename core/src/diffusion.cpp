@@ -50,9 +50,9 @@ private:
 /// Diffusion of the rows [begin, end).
 class BandDiffusion {
 public:
-    BandDiffusion(const Rasters& guide, int width, int height, const DiffusionOptions& options)
-        : m_guide(guide), m_width(width), m_height(height), m_steps(options.steps),
-          m_lengths(step_lengths(options.steps)), m_right(width, options.steps + 3), m_down(width, options.steps + 3),
+    BandDiffusion(const Rasters& guide, const DiffusionOptions& options)
+        : m_guide(guide), m_width(options.width), m_height(options.height), m_steps(options.steps),
+          m_lengths(step_lengths(m_steps)), m_right(m_width, m_steps + 3), m_down(m_width, m_steps + 3),
           m_scale(1.0f / (options.contrast * options.contrast * float(guide.size())))
     {
     }
@@ -155,16 +155,15 @@ void BandDiffusion::run(int begin, int end, const Rasters& picture, Rasters& res
 
 }  // namespace
 
-void diffuse(const Rasters& guide, int width, int height, const DiffusionOptions& options, const Rasters& picture,
-             Rasters& result)
+void diffuse(const Rasters& guide, const DiffusionOptions& options, const Rasters& picture, Rasters& result)
 {
     result.resize(picture.size());
     for (std::size_t c = 0; c < picture.size(); ++c)
         result[c].resize(picture[c].size());
-    const int bands = (height + kBandRows - 1) / kBandRows;
+    const int bands = (options.height + kBandRows - 1) / kBandRows;
     run(options.parallel, std::size_t(bands), [&](std::size_t i) {
         const int begin = int(i) * kBandRows;
-        BandDiffusion(guide, width, height, options).run(begin, std::min(begin + kBandRows, height), picture, result);
+        BandDiffusion(guide, options).run(begin, std::min(begin + kBandRows, options.height), picture, result);
     });
 }
 

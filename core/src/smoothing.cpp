@@ -147,23 +147,67 @@ void feature_sweep(const Hierarchy& hierarchy, const SmoothingSource& source, fl
     }
 }
 
-void smooth(const Hierarchy& hierarchy, const SmoothingSource& source, float strength, const ParallelFor& parallel,
+void smooth(const Hierarchy& hierarchy, const SmoothingSource& source, const SmoothingOptions& options,
             Rasters& result)
 {
-    if (!(strength > 0.0f)) {
+    if (!(options.strength > 0.0f)) {
         result = source.samples;
         return;
     }
     Rasters features, start = source.samples;
-    feature_sweep(hierarchy, source, strength, features);
+    feature_sweep(hierarchy, source, options.strength, features);
     for (std::size_t c = 0; c < start.size(); ++c)
         for (std::size_t i = 0; i < start[c].size(); ++i)
             start[c][i] = features[c][i] + kStartShare * (start[c][i] - features[c][i]);
-    DiffusionOptions options;
-    options.contrast = std::max(strength, kLeastStrength);
-    options.steps = kDiffusionSteps;
-    options.parallel = parallel;
-    diffuse(features, hierarchy.mesh_width(), hierarchy.mesh_height(), options, start, result);
+    DiffusionOptions diffusion;
+    diffusion.width = hierarchy.mesh_width();
+    diffusion.height = hierarchy.mesh_height();
+    diffusion.contrast = std::max(options.strength, kLeastStrength);
+    diffusion.steps = kDiffusionSteps;
+    diffusion.parallel = options.parallel;
+    diffuse(features, diffusion, start, result);
+}
+
+namespace {
+
+/// Share of the detail that is amplified at each pixel of row y, see enhance(). `scale`: of the squared differences.
+std::vector<float> share_off_edges(const Rasters& smoothed, int width, int height, int y, float scale)
+{
+    const std::size_t n = std::size_t(width), at = std::size_t(y) * n;
+    const std::size_t above = y > 0 ? at - n : at, below = y + 1 < height ? at + n : at;
+    std::vector<float> share(n, 0.0f);
+    for (const std::vector<float>& z : smoothed)
+        for (std::size_t x = 0; x < n; ++x) {
+            const float dx = z[at + std::min(x + 1, n - 1)] - z[at + std::max<std::size_t>(x, 1) - 1];
+            const float dy = z[below + x] - z[above + x];
+            share[x] += dx * dx + dy * dy;
+        }
+    for (float& s : share)
+        s = 1.0f / ((1.0f + scale * s) * (1.0f + scale * s));
+    return share;
+}
+
+}  // namespace
+
+void enhance(const Hierarchy& hierarchy, const SmoothingSource& source, const SmoothingOptions& options, float gain,
+             Rasters& result)
+{
+    Rasters smoothed;
+    smooth(hierarchy, source, options, smoothed);
+    result = source.samples;
+    // Differences over two pixels, twice the gradient: their square holds the factor 4.
+    const float strength = std::max(options.strength, kLeastStrength);
+    const float scale = 1.0f / (strength * strength * float(result.size()));
+    const int width = hierarchy.mesh_width(), height = hierarchy.mesh_height();
+    run(options.parallel, std::size_t(height), [&](std::size_t y) {
+        const std::vector<float> share = share_off_edges(smoothed, width, height, int(y), scale);
+        for (std::size_t c = 0; c < result.size(); ++c) {
+            float* to = &result[c][y * share.size()];
+            const float* from = &smoothed[c][y * share.size()];
+            for (std::size_t x = 0; x < share.size(); ++x)
+                to[x] += (gain - 1.0f) * share[x] * (to[x] - from[x]);
+        }
+    });
 }
 
 float noise_level(const Rasters& samples, int width, int height)
