@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Feature-preserving low-pass (paper, section 4.1): the details of all but the first splits are left out.
+// Feature-preserving low-pass: by strength, or as in the paper (section 4.1), where the details of all but the first splits
+// are left out.
 #include <pimg/imagebufalgo.h>
 
 #include <cmath>
@@ -11,14 +12,11 @@ namespace ImageBufAlgo {
 
 namespace {
 
-constexpr float kDefaultFraction = 0.1f;
-
 Level splits_kept(const Hierarchy& hierarchy, const FeatureLowpassOptions& options)
 {
     if (options.splits >= 0)
         return std::min(Level(options.splits), hierarchy.levels());
-    const float fraction = options.fraction >= 0.0f ? options.fraction : kDefaultFraction;
-    return Level(std::lround(double(fraction) * hierarchy.levels()));
+    return Level(std::lround(double(options.fraction) * hierarchy.levels()));
 }
 
 /// One channel with the details of the first `kept` splits only.
@@ -31,30 +29,61 @@ std::vector<float> lowpass(const Hierarchy& hierarchy, const Bands& bands, Level
     return to_picture(hierarchy, values.data(), exponent);
 }
 
+bool by_position(ProgressiveImage::Data& data, const FeatureLowpassOptions& options, const ParallelFor& parallel,
+                 Rasters& results, std::string& error)
+{
+    if (options.splits >= 0 && options.fraction >= 0.0f) {
+        error = "splits and fraction: expected only one of them";
+        return false;
+    }
+    if (options.strength >= 0.0f || options.noise >= 0.0f || options.log) {
+        error = "splits and fraction: expected without strength, noise and log";
+        return false;
+    }
+    const ChannelBands* channels = data.channel_bands(parallel, error);
+    if (channels == nullptr)
+        return false;
+    const Level kept = splits_kept(data.hierarchy, options);
+    results.resize(channels->bands.size());
+    run(parallel, results.size(),
+        [&](std::size_t i) { results[i] = lowpass(data.hierarchy, channels->bands[i], kept, channels->exponent); });
+    return true;
+}
+
+bool by_strength(ProgressiveImage::Data& data, const FeatureLowpassOptions& options, const ParallelFor& parallel,
+                 Rasters& results, std::string& error)
+{
+    const SmoothingData& smoothing = data.smoothing(options.log);
+    SmoothingOptions smoothing_options;
+    smoothing_options.parallel = parallel;
+    if (!find_strength(options, smoothing, smoothing_options.strength, error))
+        return false;
+    if (smoothing_options.strength == 0.0f) {
+        results = source_channels(data);
+        return true;
+    }
+    smooth(data.hierarchy, smoothing.source, smoothing_options, results);
+    to_picture(data.hierarchy, smoothing, results);
+    return true;
+}
+
 }  // namespace
 
 bool feature_lowpass(ImageBuf& dst, const ProgressiveImage& src, const FeatureLowpassOptions& options, ROI roi,
                      int nthreads)
 {
     return run_filter(dst, options, [&] {
-        if (options.splits >= 0 && options.fraction >= 0.0f) {
-            dst.errorfmt("splits and fraction: expected only one of them");
-            return false;
-        }
         if (!prepare(dst, src, roi, ResultType::as_source))
             return false;
         ProgressiveImage::Data& data = *src.data();
         const ParallelFor parallel = pool_loop(nthreads);
-        const Level kept = splits_kept(data.hierarchy, options);
+        const bool positional = options.splits >= 0 || options.fraction >= 0.0f;
+        Rasters results;
         std::string error;
-        const ChannelBands* channels = data.channel_bands(parallel, error);
-        if (channels == nullptr) {
+        if (!(positional ? by_position : by_strength)(data, options, parallel, results, error)) {
             dst.errorfmt("{}", error);
             return false;
         }
-        std::vector<std::vector<float>> results(channels->bands.size());
-        run(parallel, results.size(),
-            [&](std::size_t i) { results[i] = lowpass(data.hierarchy, channels->bands[i], kept, channels->exponent); });
         write_channels(dst, data, roi, parallel, results);
         return true;
     });

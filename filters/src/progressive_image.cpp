@@ -174,6 +174,15 @@ const ChannelBands* ProgressiveImage::Data::channel_bands(const ParallelFor&, st
     return m_channels.get();
 }
 
+const SmoothingData& ProgressiveImage::Data::smoothing(bool log)
+{
+    std::lock_guard<std::mutex> lock(m_mutex);
+    std::unique_ptr<SmoothingData>& cached = m_smoothing[log ? 1 : 0];
+    if (cached == nullptr)
+        cached = std::make_unique<SmoothingData>(prepare_smoothing(*this, log));
+    return *cached;
+}
+
 std::shared_ptr<const std::vector<float>> ProgressiveImage::Data::envelope(float coherence)
 {
     std::lock_guard<std::mutex> lock(m_mutex);
@@ -196,6 +205,8 @@ std::size_t ProgressiveImage::Data::memory()
     if (m_channels != nullptr)
         for (const Bands& bands : m_channels->bands)
             total += bytes(bands);
+    for (const std::unique_ptr<SmoothingData>& smoothing : m_smoothing)
+        total += smoothing != nullptr ? smoothing->source.memory() : 0;
     if (m_envelope != nullptr)
         total += m_envelope->capacity() * sizeof(float);
     return total;
