@@ -36,7 +36,10 @@ std::vector<float> step_lengths(int steps)
 /// sample on either side.
 class RowRing {
 public:
-    RowRing(int width, int rows) : m_stride(std::size_t(width) + 2), m_rows(rows), m_samples(m_stride * std::size_t(rows))
+    RowRing(int width, int rows)
+        : m_stride(std::size_t(width) + 2),
+          m_rows(rows),
+          m_samples(m_stride * std::size_t(rows))
     {
     }
     float* row(int y) { return &m_samples[m_stride * std::size_t((y + m_rows) % m_rows) + 1]; }
@@ -51,8 +54,13 @@ private:
 class BandDiffusion {
 public:
     BandDiffusion(const Rasters& guide, const DiffusionOptions& options)
-        : m_guide(guide), m_width(options.width), m_height(options.height), m_steps(options.steps),
-          m_lengths(step_lengths(m_steps)), m_right(m_width, m_steps + 3), m_down(m_width, m_steps + 3),
+        : m_guide(guide),
+          m_width(options.width),
+          m_height(options.height),
+          m_steps(options.steps),
+          m_lengths(step_lengths(m_steps)),
+          m_right(m_width, m_steps + 3),
+          m_down(m_width, m_steps + 3),
           m_scale(1.0f / (options.contrast * options.contrast * float(guide.size())))
     {
     }

@@ -11,14 +11,17 @@ namespace pimg {
 
 namespace {
 
-constexpr float kFeaturePixels = 8.0f;  ///< pixels a deviation of `strength` must cover to count as a feature
-constexpr float kStartShare = 0.7f;     ///< of what the sweep removed, in the picture that diffuses
-constexpr int kDiffusionSteps = 7;      ///< reach of a Gaussian of 3 pixels
+constexpr float kFeaturePixels = 8.0f;    ///< pixels a deviation of `strength` must cover to count as a feature
+constexpr float kStartShare = 0.7f;       ///< of what the sweep removed, in the picture that diffuses
+constexpr int kDiffusionSteps = 7;        ///< reach of a Gaussian of 3 pixels
 constexpr float kLeastStrength = 1e-17f;  ///< its square is still a number
 
 /// Share of a deviation that stays: 0 well below the tolerance, 1 well above, a half at it. `square` is the
 /// squared ratio of both.
-float kept_share(float square) { return 1.0f - 1.0f / (1.0f + square * square); }
+float kept_share(float square)
+{
+    return 1.0f - 1.0f / (1.0f + square * square);
+}
 
 /// Vertex values with the channels of a vertex side by side.
 template<int C>
@@ -26,7 +29,9 @@ class FeatureSweep {
 public:
     /// `tolerance`: deviation of a single pixel of which half stays.
     FeatureSweep(const Hierarchy& hierarchy, const SmoothingSource& source, float tolerance)
-        : m_hierarchy(hierarchy), m_source(source), m_scale(1.0f / (tolerance * tolerance) / float(C)),
+        : m_hierarchy(hierarchy),
+          m_source(source),
+          m_scale(1.0f / (tolerance * tolerance) / float(C)),
           m_values(std::size_t(hierarchy.vertices()) * C)
     {
     }
@@ -140,15 +145,18 @@ SmoothingSource analyse_for_smoothing(const Hierarchy& hierarchy, Rasters sample
 void feature_sweep(const Hierarchy& hierarchy, const SmoothingSource& source, float strength, Rasters& features)
 {
     switch (source.samples.size()) {
-    case 1: return run_sweep<1>(hierarchy, source, strength, features);
-    case 2: return run_sweep<2>(hierarchy, source, strength, features);
-    case 3: return run_sweep<3>(hierarchy, source, strength, features);
-    default: return run_sweep<4>(hierarchy, source, strength, features);
+    case 1:
+        return run_sweep<1>(hierarchy, source, strength, features);
+    case 2:
+        return run_sweep<2>(hierarchy, source, strength, features);
+    case 3:
+        return run_sweep<3>(hierarchy, source, strength, features);
+    default:
+        return run_sweep<4>(hierarchy, source, strength, features);
     }
 }
 
-void smooth(const Hierarchy& hierarchy, const SmoothingSource& source, const SmoothingOptions& options,
-            Rasters& result)
+void smooth(const Hierarchy& hierarchy, const SmoothingSource& source, const SmoothingOptions& options, Rasters& result)
 {
     if (!(options.strength > 0.0f)) {
         result = source.samples;

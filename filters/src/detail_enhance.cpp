@@ -49,8 +49,8 @@ bool by_position(ProgressiveImage::Data& data, const DetailEnhanceOptions& optio
     const Level from = place(data.hierarchy, options.from), to = place(data.hierarchy, options.to);
     results.resize(channels->bands.size());
     run(parallel, results.size(), [&](std::size_t i) {
-        results[i] = enhanced(data, data.colour.channel(int(i)), channels->bands[i], channels->exponent, from, to,
-                              options.gain);
+        results[i] =
+            enhanced(data, data.colour.channel(int(i)), channels->bands[i], channels->exponent, from, to, options.gain);
     });
     return true;
 }

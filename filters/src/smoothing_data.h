@@ -18,7 +18,7 @@ namespace pimg {
 class SignedLog {
 public:
     SignedLog() = default;
-    explicit SignedLog(float unit) : m_unit(unit) {}
+    explicit SignedLog(float unit) : m_unit(unit) { }
     void to_log(float* values, std::size_t count) const;
     void from_log(float* values, std::size_t count) const;
 

@@ -17,9 +17,9 @@ using Rasters = std::vector<std::vector<float>>;
 ///     1 / (1 + (d / contrast)^2)^2
 struct DiffusionOptions {
     int width = 0, height = 0;  ///< of all rasters
-    float contrast = 0.1f;  ///< difference across which a quarter of the flow is left; > 0, in units of the guide
-    int steps = 7;          ///< 1 or more; n steps reach as far as a Gaussian of variance (n^2 + n) / 6, in pixels
-    ParallelFor parallel;   ///< the result does not depend on it
+    float contrast = 0.1f;      ///< difference across which a quarter of the flow is left; > 0, in units of the guide
+    int steps = 7;              ///< 1 or more; n steps reach as far as a Gaussian of variance (n^2 + n) / 6, in pixels
+    ParallelFor parallel;       ///< the result does not depend on it
 };
 
 /// Diffuses every channel of `picture`, which may be the guide itself; the conductances are those of the guide as given.
