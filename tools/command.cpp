@@ -94,7 +94,7 @@ bool take_words(const std::vector<std::string>& arguments, std::size_t& at, Call
 
 bool parse_command(const std::vector<std::string>& arguments, std::size_t& at, Program& program, std::string& error)
 {
-    const std::string text = arguments[at];
+    const std::string& text = arguments[at];
     const std::size_t colon = std::min(text.find(':'), text.size());
     Call call { find_command(text), {}, {} };
     if (!call.command) {
