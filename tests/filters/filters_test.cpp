@@ -23,6 +23,14 @@ FeatureLowpassOptions keep(float fraction)
     return options;
 }
 
+FeatureLowpassOptions contrast(float strength, bool log = false)
+{
+    FeatureLowpassOptions options;
+    options.strength = strength;
+    options.log = log;
+    return options;
+}
+
 DetailEnhanceOptions times(float gain)
 {
     DetailEnhanceOptions options;
@@ -48,6 +56,20 @@ std::vector<std::pair<std::string, std::function<bool(ImageBuf&, const Source&, 
         { "detail_enhance",
           [](ImageBuf& d, const Source& s, ROI r, int n) {
               return ImageBufAlgo::detail_enhance(d, s, times(3.0f), r, n);
+          } },
+        { "feature_lowpass by strength",
+          [](ImageBuf& d, const Source& s, ROI r, int n) {
+              return ImageBufAlgo::feature_lowpass(d, s, contrast(0.05f), r, n);
+          } },
+        { "feature_lowpass of logarithms",
+          [](ImageBuf& d, const Source& s, ROI r, int n) {
+              return ImageBufAlgo::feature_lowpass(d, s, contrast(0.2f, true), r, n);
+          } },
+        { "detail_enhance by strength",
+          [](ImageBuf& d, const Source& s, ROI r, int n) {
+              DetailEnhanceOptions options = times(3.0f);
+              options.noise = 3.0f;
+              return ImageBufAlgo::detail_enhance(d, s, options, r, n);
           } },
         { "level_image",
           [=](ImageBuf& d, const Source& s, ROI r, int n) { return ImageBufAlgo::level_image(d, s, level, r, n); } },
