@@ -103,11 +103,13 @@ template<int C>
 void FeatureSweep<C>::scatter(Rasters& rasters) const
 {
     rasters.resize(C);
-    for (std::vector<float>& raster : rasters)
-        raster.resize(m_hierarchy.mesh_pixels());
-    for (Index v = 0; v < m_hierarchy.vertices(); ++v)
-        for (int c = 0; c < C; ++c)
-            rasters[std::size_t(c)][m_hierarchy.pixels[v]] = at(v)[c];
+    std::vector<float> values(m_hierarchy.vertices());
+    for (int c = 0; c < C; ++c) {
+        for (Index v = 0; v < m_hierarchy.vertices(); ++v)
+            values[v] = at(v)[c];
+        rasters[std::size_t(c)].resize(m_hierarchy.mesh_pixels());
+        pimg::scatter(m_hierarchy, values.data(), rasters[std::size_t(c)].data());
+    }
 }
 
 template<int C>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The dual pieces of a hierarchy: every vertex of a mesh M_i stands for the pixels it was collapsed from. Both functions are
-// one pass from fine to coarse.
+// The dual pieces of a hierarchy: every vertex of a mesh M_i stands for the pixels it was collapsed from. A pixel that is
+// no vertex of the finest mesh is shared out by its interpolation weights. Both functions are one pass from fine to coarse.
 #pragma once
 
 #include <vector>
