@@ -68,8 +68,7 @@ bool by_strength(ProgressiveImage::Data& data, const DetailEnhanceOptions& optio
     const SmoothingData& smoothing = data.smoothing(options.log);
     SmoothingOptions smoothing_options;
     smoothing_options.parallel = parallel;
-    if (!find_strength(options, smoothing, smoothing_options.strength, error))
-        return false;
+    smoothing_options.strength = find_strength(options, smoothing);
     if (smoothing_options.strength == 0.0f || options.gain == 1.0f) {
         results = source_channels(data);
         return true;

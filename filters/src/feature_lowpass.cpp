@@ -32,12 +32,8 @@ std::vector<float> lowpass(const Hierarchy& hierarchy, const Bands& bands, Level
 bool by_position(ProgressiveImage::Data& data, const FeatureLowpassOptions& options, const ParallelFor& parallel,
                  Rasters& results, std::string& error)
 {
-    if (options.splits >= 0 && options.fraction >= 0.0f) {
-        error = "splits and fraction: expected only one of them";
-        return false;
-    }
-    if (options.strength >= 0.0f || options.noise >= 0.0f || options.log) {
-        error = "splits and fraction: expected without strength, noise and log";
+    if (options.log) {
+        error = "log: expected without splits and fraction";
         return false;
     }
     const ChannelBands* channels = data.channel_bands(parallel, error);
@@ -50,21 +46,19 @@ bool by_position(ProgressiveImage::Data& data, const FeatureLowpassOptions& opti
     return true;
 }
 
-bool by_strength(ProgressiveImage::Data& data, const FeatureLowpassOptions& options, const ParallelFor& parallel,
-                 Rasters& results, std::string& error)
+void by_strength(ProgressiveImage::Data& data, const FeatureLowpassOptions& options, const ParallelFor& parallel,
+                 Rasters& results)
 {
     const SmoothingData& smoothing = data.smoothing(options.log);
     SmoothingOptions smoothing_options;
+    smoothing_options.strength = find_strength(options, smoothing);
     smoothing_options.parallel = parallel;
-    if (!find_strength(options, smoothing, smoothing_options.strength, error))
-        return false;
     if (smoothing_options.strength == 0.0f) {
         results = source_channels(data);
-        return true;
+        return;
     }
     smooth(data.hierarchy, smoothing.source, smoothing_options, results);
     to_picture(data.hierarchy, smoothing, results);
-    return true;
 }
 
 }  // namespace
@@ -80,7 +74,9 @@ bool feature_lowpass(ImageBuf& dst, const ProgressiveImage& src, const FeatureLo
         const bool positional = options.splits >= 0 || options.fraction >= 0.0f;
         Rasters results;
         std::string error;
-        if (!(positional ? by_position : by_strength)(data, options, parallel, results, error)) {
+        if (!positional) {
+            by_strength(data, options, parallel, results);
+        } else if (!by_position(data, options, parallel, results, error)) {
             dst.errorfmt("{}", error);
             return false;
         }

@@ -126,6 +126,18 @@ bool check_option(const OptionRule& rule, const OptionValue& value, std::string&
     return fine || fail(rule, to_text(value), value, error);
 }
 
+bool check_alternatives(const std::vector<const OptionRule*>& given, std::string& error)
+{
+    for (const OptionRule* rule : given)
+        for (const OptionRule* other : given)
+            if (rule != other && *rule->sets != '\0' && std::string_view(rule->sets) == other->sets) {
+                error = std::string(rule->key) + " and " + other->key + " both say the " + rule->sets
+                    + ": expected only one of them";
+                return false;
+            }
+    return true;
+}
+
 bool parse_option(const OptionRule& rule, std::string_view text, OptionValue& value, std::string& error)
 {
     const OptionValue type = value;
@@ -185,8 +197,7 @@ const std::vector<Option<BuildOptions>>& option_table<BuildOptions>()
             "colour space of the picture; its metadata, else sRGB for 8 bit, else linear" } },
         { &T::mesh, { "mesh", 0, 0, "", "full|adaptive", "a vertex for every pixel, or fewer: faster, still exact" } },
         { &T::density, { "density", 1e-6, 1, "", "", "share of the pixels an adaptive mesh keeps" } },
-        { &T::control,
-          { "control", 0, 0, "", "", "what density follows: gradient, curvature, or an image file" } },
+        { &T::control, { "control", 0, 0, "", "", "what density follows: gradient, curvature, or an image file" } },
     };
     return table;
 }
@@ -198,9 +209,12 @@ template<class T>
 void add_strength_options(std::vector<Option<T>>& table)
 {
     table.push_back({ &T::strength,
-                      { "strength", 0, kAnyFloat, "", "", "contrast smoothed away, in the picture's units; with log in stops" } });
-    table.push_back({ &T::noise, { "noise", 0, kAnyFloat, "", "", "the same as a multiple of the estimated noise" } });
-    table.push_back({ &T::log, { "log", 0, 0, "", "", "work on the channels' logarithms: for scene-referred pictures" } });
+                      { "strength", 0, kAnyFloat, "", "",
+                        "contrast smoothed away, in the picture's units; with log in stops", "cut-off" } });
+    table.push_back(
+        { &T::noise, { "noise", 0, kAnyFloat, "", "", "the same as a multiple of the estimated noise", "cut-off" } });
+    table.push_back(
+        { &T::log, { "log", 0, 0, "", "", "work on the channels' logarithms: for scene-referred pictures" } });
 }
 
 /// The level options of T, a struct derived from LevelOptions.
@@ -208,11 +222,11 @@ template<class T>
 std::vector<Option<T>> level_table()
 {
     return {
-        { &T::splits, { "splits", 0, kAnyInt, "splits", "", "vertex splits applied to the base mesh" } },
-        { &T::faces, { "faces", 2, kAnyInt, "faces", "", "triangles of the mesh" } },
-        { &T::vertices, { "vertices", 4, kAnyInt, "vertices", "", "vertices of the mesh" } },
-        { &T::fraction, { "fraction", 0, 1, "", "", "share of the picture's vertices" } },
-        { &T::error, { "error", 0, kAnyFloat, "", "", "largest collapse cost left out" } },
+        { &T::splits, { "splits", 0, kAnyInt, "splits", "", "vertex splits applied to the base mesh", "level" } },
+        { &T::faces, { "faces", 2, kAnyInt, "faces", "", "triangles of the mesh", "level" } },
+        { &T::vertices, { "vertices", 4, kAnyInt, "vertices", "", "vertices of the mesh", "level" } },
+        { &T::fraction, { "fraction", 0, 1, "", "", "share of the picture's vertices", "level" } },
+        { &T::error, { "error", 0, kAnyFloat, "", "", "largest collapse cost left out", "level" } },
     };
 }
 
@@ -246,8 +260,9 @@ const std::vector<Option<FeatureLowpassOptions>>& option_table<FeatureLowpassOpt
         std::vector<Option<T>> all;
         add_strength_options(all);
         all.push_back({ &T::splits,
-                        { "splits", 0, kAnyInt, "splits", "", "in place of these: vertex splits whose details are kept" } });
-        all.push_back({ &T::fraction, { "fraction", 0, 1, "", "", "the same as a share of all splits" } });
+                        { "splits", 0, kAnyInt, "splits", "", "in place of these: vertex splits whose details are kept",
+                          "cut-off" } });
+        all.push_back({ &T::fraction, { "fraction", 0, 1, "", "", "the same as a share of all splits", "cut-off" } });
         return all;
     }();
     return table;
@@ -258,7 +273,8 @@ const std::vector<Option<DetailEnhanceOptions>>& option_table<DetailEnhanceOptio
 {
     using T = DetailEnhanceOptions;
     static const std::vector<Option<T>> table = [] {
-        std::vector<Option<T>> all = { { &T::gain, { "gain", 0, 100, "", "", "factor on the details; 1 changes nothing" } } };
+        std::vector<Option<T>> all = { { &T::gain,
+                                         { "gain", 0, 100, "", "", "factor on the details; 1 changes nothing" } } };
         add_strength_options(all);
         all.push_back({ &T::from,
                         { "from", 0, kAnyInt, "", "",
@@ -278,8 +294,7 @@ const std::vector<Option<HdrCompressOptions>>& option_table<HdrCompressOptions>(
         { &T::beta, { "beta", 0, 1000, "", "", "how fast smaller details are compressed less" } },
         { &T::dmax, { "dmax", 0, 256, "stops", "", "detail that is compressed fully; 0: found" } },
         { &T::coherence,
-          { "coherence", 0, 1, "", "",
-            "share of the contrast around it that a detail is compressed for; 0: its own" } },
+          { "coherence", 0, 1, "", "", "how far details are compressed like the coarser features around; 0: not" } },
         { &T::saturation, { "saturation", 0, 4, "", "", "exponent of the colour ratio; 1 keeps colours, 0 is grey" } },
         { &T::fit, { "fit", 0, 0, "", "", "fit the result to the display; 0: leave it in the picture's units" } },
         { &T::contrast, { "contrast", 0, 8, "", "", "factor on the compressed log luminance; 0: found" } },

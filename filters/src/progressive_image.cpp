@@ -74,7 +74,7 @@ bool read_control_map(const std::string& filename, const Guide& guide, std::vect
 std::size_t bytes(const Bands& bands)
 {
     return (bands.base.capacity() + bands.residual.capacity()) * sizeof(float)
-           + bands.details.capacity() * sizeof(Detail);
+        + bands.details.capacity() * sizeof(Detail);
 }
 
 }  // namespace
@@ -121,7 +121,9 @@ bool ProgressiveImage::Data::find_initial_mesh(const Guide& guide, const Paralle
     sampling.control = options.control == "curvature" ? Control::curvature : Control::gradient;
     sampling.parallel = parallel;
     if (progress)
-        sampling.progress = [&](float) { return progress(0.0f); };
+        sampling.progress = [&](float) {
+            return progress(0.0f);
+        };
     std::vector<float> map;
     if (options.control != "gradient" && options.control != "curvature") {
         if (!read_control_map(options.control, guide, map, error))
@@ -242,7 +244,8 @@ std::shared_ptr<const std::vector<float>> ProgressiveImage::Data::envelope(float
 {
     std::lock_guard<std::mutex> lock(m_mutex);
     if (m_envelope == nullptr || m_envelope_coherence != coherence) {
-        m_envelope = std::make_shared<const std::vector<float>>(contrast_envelope(hierarchy, *m_log->bands, coherence));
+        m_envelope = std::make_shared<const std::vector<float>>(
+            contrast_envelope(hierarchy, *m_log->bands, coherence, m_log->luminance.range));
         m_envelope_coherence = coherence;
     }
     return m_envelope;

@@ -63,8 +63,8 @@ private:
     std::unique_ptr<LogBands> m_log;
     std::unique_ptr<ChannelBands> m_channels;
     std::unique_ptr<SmoothingData> m_smoothing[2];  ///< as stored, logarithms
-    bool m_whole_numbers = false;  ///< the picture's own samples are integers, here 0..1
-    float m_guide_scale = 0.0f;    ///< see StoredGuide; of luma and rgb guides
+    bool m_whole_numbers = false;                   ///< the picture's own samples are integers, here 0..1
+    float m_guide_scale = 0.0f;                     ///< see StoredGuide; of luma and rgb guides
     bool m_guide_clipped = false;
     Bands m_log_bands;  ///< if they are not the guide's
     float m_envelope_coherence = -1.0f;

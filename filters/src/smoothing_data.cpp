@@ -103,19 +103,13 @@ SmoothingData prepare_smoothing(const ProgressiveImage::Data& data, bool log)
     return result;
 }
 
-bool find_strength(const StrengthOptions& options, const SmoothingData& smoothing, float& strength, std::string& error)
+float find_strength(const StrengthOptions& options, const SmoothingData& smoothing)
 {
-    if (options.strength >= 0.0f && options.noise >= 0.0f) {
-        error = "strength and noise: expected only one of them";
-        return false;
-    }
     if (options.noise >= 0.0f)
-        strength = options.noise * smoothing.noise;
-    else if (options.strength >= 0.0f)
-        strength = std::ldexp(options.strength, -smoothing.exponent);
-    else
-        strength = smoothing.log ? kDefaultStops : std::ldexp(kDefaultStrength, -smoothing.exponent);
-    return true;
+        return options.noise * smoothing.noise;
+    if (options.strength >= 0.0f)
+        return std::ldexp(options.strength, -smoothing.exponent);
+    return smoothing.log ? kDefaultStops : std::ldexp(kDefaultStrength, -smoothing.exponent);
 }
 
 void to_picture(const Hierarchy& hierarchy, const SmoothingData& smoothing, Rasters& results)

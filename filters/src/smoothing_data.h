@@ -40,9 +40,8 @@ Rasters source_channels(const ProgressiveImage::Data& data);
 
 SmoothingData prepare_smoothing(const ProgressiveImage::Data& data, bool log);
 
-/// The strength the options ask for, in units of `smoothing`; the default if they do not say. False, with an
-/// error, if they say it twice.
-bool find_strength(const StrengthOptions& options, const SmoothingData& smoothing, float& strength, std::string& error);
+/// The strength the options ask for, in units of `smoothing`; the default if they do not say.
+float find_strength(const StrengthOptions& options, const SmoothingData& smoothing);
 
 /// Makes rasters of core's results ones of the picture's size, in its units.
 void to_picture(const Hierarchy& hierarchy, const SmoothingData& smoothing, Rasters& results);
