@@ -58,13 +58,13 @@ def read(file):
 
 
 def methods(tool, photo, image):
-    fractions, strengths = np.geomspace(0.5, 0.002, 14), np.geomspace(0.008, 0.08, 14)
+    fractions, strengths = np.geomspace(0.5, 0.002, 14), np.geomspace(0.008, 0.25, 18)
     yield "paper: fraction %.3g", fractions, pimg(tool, photo, "fraction", fractions)
-    yield "strength %.3g", strengths, pimg(tool, photo, "strength", strengths)
+    yield "pimg: strength %.3g", strengths, pimg(tool, photo, "strength", strengths)
     ranges = np.geomspace(0.03, 0.8, 14)
     yield "bilateral, 6 px, %.2g", ranges, [cv2.bilateralFilter(image, -1, r, 6) for r in ranges]
     ranges = np.geomspace(0.05, 4, 14)
-    yield "domain transform, 20 px, %.2g", ranges, [
+    yield "domain transform, %.2g", ranges, [
         cv2.ximgproc.dtFilter(image, image, 20, r, mode=cv2.ximgproc.DTF_RF, numIters=3) for r in ranges]
     weights = np.geomspace(0.001, 0.2, 12)
     yield "L0, %.2g", weights, [l0(image, weight) for weight in weights]

@@ -12,8 +12,10 @@ namespace pimg {
 namespace {
 
 constexpr float kFeaturePixels = 8.0f;    ///< pixels a deviation of `strength` must cover to count as a feature
-constexpr float kStartShare = 0.7f;       ///< of what the sweep removed, in the picture that diffuses
-constexpr int kDiffusionSteps = 7;        ///< reach of a Gaussian of 3 pixels
+constexpr float kStartShare = 0.85f;      ///< of what the sweep removed, in the picture that diffuses
+constexpr float kContrastShare = 0.7f;    ///< contrast that stops diffusion, as a share of the strength
+constexpr int kSteps = 6;                 ///< of diffusion guided by the features
+constexpr int kOwnSteps = 3;              ///< and then by what came out of that
 constexpr float kLeastStrength = 1e-17f;  ///< its square is still a number
 
 /// Share of a deviation that stays: 0 well below the tolerance, 1 well above, a half at it. `square` is the
@@ -172,10 +174,13 @@ void smooth(const Hierarchy& hierarchy, const SmoothingSource& source, const Smo
     DiffusionOptions diffusion;
     diffusion.width = hierarchy.mesh_width();
     diffusion.height = hierarchy.mesh_height();
-    diffusion.contrast = std::max(options.strength, kLeastStrength);
-    diffusion.steps = kDiffusionSteps;
+    diffusion.contrast = kContrastShare * std::max(options.strength, kLeastStrength);
+    diffusion.steps = kSteps;
     diffusion.parallel = options.parallel;
-    diffuse(features, diffusion, start, result);
+    Rasters guided;
+    diffuse(features, diffusion, start, guided);
+    diffusion.steps = kOwnSteps;
+    diffuse(guided, diffusion, guided, result);
 }
 
 namespace {

@@ -2,7 +2,7 @@
 // Feature-preserving smoothing by strength: what is small in contrast for its size goes, edges and thin lines stay.
 //
 //     picture ──▶ piece means ──sweep──▶ feature picture ──┐ says where the edges are
-//        └──────────────────────────────────┴── half each ─┴─diffuse──▶ result
+//        └─────────────────────────────────┴── mixed ──────┴─diffuse─▶ ─diffuse by itself─▶ result
 //
 // The hierarchy sees features at every size but leaves the shape of its pieces; diffusion over the finest mesh leaves no
 // shape but reaches only a few pixels. Each makes up for the other.
