@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Detail enhancement (paper, section 4.1): the details of a range of splits are amplified.
+// Detail enhancement: what the low-pass of a strength removes is amplified, or as in the paper (section 4.1) the details of a
+// range of splits.
 #include <pimg/imagebufalgo.h>
 
 #include <cmath>
@@ -41,6 +42,42 @@ std::vector<float> enhanced(const ProgressiveImage::Data& data, int channel, con
     return samples;
 }
 
+bool by_position(ProgressiveImage::Data& data, const DetailEnhanceOptions& options, const ParallelFor& parallel,
+                 Rasters& results, std::string& error)
+{
+    const ChannelBands* channels = data.channel_bands(parallel, error);
+    if (channels == nullptr)
+        return false;
+    const Level from = place(data.hierarchy, options.from), to = place(data.hierarchy, options.to);
+    results.resize(channels->bands.size());
+    run(parallel, results.size(), [&](std::size_t i) {
+        results[i] =
+            enhanced(data, data.colour.channel(int(i)), channels->bands[i], channels->exponent, from, to, options.gain);
+    });
+    return true;
+}
+
+bool by_strength(ProgressiveImage::Data& data, const DetailEnhanceOptions& options, const ParallelFor& parallel,
+                 Rasters& results, std::string& error)
+{
+    const DetailEnhanceOptions defaults;
+    if (options.from != defaults.from || options.to != defaults.to) {
+        error = "from and to: expected without strength, noise and log";
+        return false;
+    }
+    const SmoothingData& smoothing = data.smoothing(options.log);
+    SmoothingOptions smoothing_options;
+    smoothing_options.parallel = parallel;
+    smoothing_options.strength = find_strength(options, smoothing);
+    if (smoothing_options.strength == 0.0f || options.gain == 1.0f) {
+        results = source_channels(data);
+        return true;
+    }
+    enhance(data.hierarchy, smoothing.source, smoothing_options, options.gain, results);
+    to_picture(data.hierarchy, smoothing, results);
+    return true;
+}
+
 }  // namespace
 
 bool detail_enhance(ImageBuf& dst, const ProgressiveImage& src, const DetailEnhanceOptions& options, ROI roi,
@@ -51,18 +88,13 @@ bool detail_enhance(ImageBuf& dst, const ProgressiveImage& src, const DetailEnha
             return false;
         ProgressiveImage::Data& data = *src.data();
         const ParallelFor parallel = pool_loop(nthreads);
-        const Level from = place(data.hierarchy, options.from), to = place(data.hierarchy, options.to);
+        const bool by_contrast = options.strength >= 0.0f || options.noise >= 0.0f || options.log;
+        Rasters results;
         std::string error;
-        const ChannelBands* channels = data.channel_bands(parallel, error);
-        if (channels == nullptr) {
+        if (!(by_contrast ? by_strength : by_position)(data, options, parallel, results, error)) {
             dst.errorfmt("{}", error);
             return false;
         }
-        std::vector<std::vector<float>> results(channels->bands.size());
-        run(parallel, results.size(), [&](std::size_t i) {
-            results[i] = enhanced(data, data.colour.channel(int(i)), channels->bands[i], channels->exponent, from, to,
-                                  options.gain);
-        });
         write_channels(dst, data, roi, parallel, results);
         return true;
     });

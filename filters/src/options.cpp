@@ -204,6 +204,19 @@ const std::vector<Option<BuildOptions>>& option_table<BuildOptions>()
 
 namespace {
 
+/// Adds the strength options of T, a struct derived from StrengthOptions.
+template<class T>
+void add_strength_options(std::vector<Option<T>>& table)
+{
+    table.push_back({ &T::strength,
+                      { "strength", 0, kAnyFloat, "", "",
+                        "contrast smoothed away, in the picture's units; with log in stops", "cut-off" } });
+    table.push_back(
+        { &T::noise, { "noise", 0, kAnyFloat, "", "", "the same as a multiple of the estimated noise", "cut-off" } });
+    table.push_back(
+        { &T::log, { "log", 0, 0, "", "", "work on the channels' logarithms: for scene-referred pictures" } });
+}
+
 /// The level options of T, a struct derived from LevelOptions.
 template<class T>
 std::vector<Option<T>> level_table()
@@ -243,11 +256,15 @@ template<>
 const std::vector<Option<FeatureLowpassOptions>>& option_table<FeatureLowpassOptions>()
 {
     using T = FeatureLowpassOptions;
-    static const std::vector<Option<T>> table = {
-        { &T::splits, { "splits", 0, kAnyInt, "splits", "", "vertex splits whose details are kept", "cut-off" } },
-        { &T::fraction,
-          { "fraction", 0, 1, "", "", "the same as a share of all splits; 0.1 if neither is given", "cut-off" } },
-    };
+    static const std::vector<Option<T>> table = [] {
+        std::vector<Option<T>> all;
+        add_strength_options(all);
+        all.push_back({ &T::splits,
+                        { "splits", 0, kAnyInt, "splits", "", "in place of these: vertex splits whose details are kept",
+                          "cut-off" } });
+        all.push_back({ &T::fraction, { "fraction", 0, 1, "", "", "the same as a share of all splits", "cut-off" } });
+        return all;
+    }();
     return table;
 }
 
@@ -255,11 +272,16 @@ template<>
 const std::vector<Option<DetailEnhanceOptions>>& option_table<DetailEnhanceOptions>()
 {
     using T = DetailEnhanceOptions;
-    static const std::vector<Option<T>> table = {
-        { &T::gain, { "gain", 0, 100, "", "", "factor on the details; 1 changes nothing" } },
-        { &T::from, { "from", 0, kAnyInt, "", "", "first split amplified: share of all, or their number if above 1" } },
-        { &T::to, { "to", 0, kAnyInt, "", "", "end of the range, likewise" } },
-    };
+    static const std::vector<Option<T>> table = [] {
+        std::vector<Option<T>> all = { { &T::gain,
+                                         { "gain", 0, 100, "", "", "factor on the details; 1 changes nothing" } } };
+        add_strength_options(all);
+        all.push_back({ &T::from,
+                        { "from", 0, kAnyInt, "", "",
+                          "in place of these: first split amplified, a share of all or, above 1, their number" } });
+        all.push_back({ &T::to, { "to", 0, kAnyInt, "", "", "end of the range, likewise" } });
+        return all;
+    }();
     return table;
 }
 

@@ -74,7 +74,7 @@ bool read_control_map(const std::string& filename, const Guide& guide, std::vect
 std::size_t bytes(const Bands& bands)
 {
     return (bands.base.capacity() + bands.residual.capacity()) * sizeof(float)
-           + bands.details.capacity() * sizeof(Detail);
+        + bands.details.capacity() * sizeof(Detail);
 }
 
 }  // namespace
@@ -121,7 +121,9 @@ bool ProgressiveImage::Data::find_initial_mesh(const Guide& guide, const Paralle
     sampling.control = options.control == "curvature" ? Control::curvature : Control::gradient;
     sampling.parallel = parallel;
     if (progress)
-        sampling.progress = [&](float) { return progress(0.0f); };
+        sampling.progress = [&](float) {
+            return progress(0.0f);
+        };
     std::vector<float> map;
     if (options.control != "gradient" && options.control != "curvature") {
         if (!read_control_map(options.control, guide, map, error))
@@ -255,6 +257,15 @@ const ChannelBands* ProgressiveImage::Data::channel_bands(const ParallelFor&, st
     return m_channels.get();
 }
 
+const SmoothingData& ProgressiveImage::Data::smoothing(bool log)
+{
+    std::lock_guard<std::mutex> lock(m_mutex);
+    std::unique_ptr<SmoothingData>& cached = m_smoothing[log ? 1 : 0];
+    if (cached == nullptr)
+        cached = std::make_unique<SmoothingData>(prepare_smoothing(*this, log));
+    return *cached;
+}
+
 std::shared_ptr<const std::vector<float>> ProgressiveImage::Data::envelope(float coherence)
 {
     std::lock_guard<std::mutex> lock(m_mutex);
@@ -278,6 +289,8 @@ std::size_t ProgressiveImage::Data::memory()
     if (m_channels != nullptr)
         for (const Bands& bands : m_channels->bands)
             total += bytes(bands);
+    for (const std::unique_ptr<SmoothingData>& smoothing : m_smoothing)
+        total += smoothing != nullptr ? smoothing->source.memory() : 0;
     if (m_envelope != nullptr)
         total += m_envelope->capacity() * sizeof(float);
     return total;

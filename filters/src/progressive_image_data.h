@@ -11,6 +11,7 @@
 #include <pimg/sampling.h>
 
 #include "guide.h"
+#include "smoothing_data.h"
 
 namespace pimg {
 
@@ -41,6 +42,9 @@ struct ProgressiveImage::Data {
     const LogBands* log_bands(const ParallelFor& parallel, std::string& error);
     const ChannelBands* channel_bands(const ParallelFor& parallel, std::string& error);
 
+    /// Likewise; `log`: of the logarithms of the channels.
+    const SmoothingData& smoothing(bool log);
+
     /// See contrast_envelope(). Kept for the coherence used last.
     std::shared_ptr<const std::vector<float>> envelope(float coherence);
 
@@ -61,8 +65,9 @@ private:
     std::mutex m_mutex;
     std::unique_ptr<LogBands> m_log;
     std::unique_ptr<ChannelBands> m_channels;
-    bool m_whole_numbers = false;  ///< the picture's own samples are integers, here 0..1
-    float m_guide_scale = 0.0f;    ///< see StoredGuide; of luma and rgb guides
+    std::unique_ptr<SmoothingData> m_smoothing[2];  ///< as stored, logarithms
+    bool m_whole_numbers = false;                   ///< the picture's own samples are integers, here 0..1
+    float m_guide_scale = 0.0f;                     ///< see StoredGuide; of luma and rgb guides
     bool m_guide_clipped = false;
     Bands m_log_bands;  ///< if they are not the guide's
     float m_envelope_coherence = -1.0f;

@@ -23,6 +23,14 @@ FeatureLowpassOptions keep(float fraction)
     return options;
 }
 
+FeatureLowpassOptions contrast(float strength, bool log = false)
+{
+    FeatureLowpassOptions options;
+    options.strength = strength;
+    options.log = log;
+    return options;
+}
+
 DetailEnhanceOptions times(float gain)
 {
     DetailEnhanceOptions options;
@@ -40,7 +48,9 @@ std::vector<std::pair<std::string, std::function<bool(ImageBuf&, const Source&, 
     wires.fraction = 0.1f;
     return {
         { "hdr_compress",
-          [](ImageBuf& d, const Source& s, ROI r, int n) { return ImageBufAlgo::hdr_compress(d, s, {}, r, n); } },
+          [](ImageBuf& d, const Source& s, ROI r, int n) {
+              return ImageBufAlgo::hdr_compress(d, s, {}, r, n);
+          } },
         { "feature_lowpass",
           [](ImageBuf& d, const Source& s, ROI r, int n) {
               return ImageBufAlgo::feature_lowpass(d, s, keep(0.2f), r, n);
@@ -49,10 +59,28 @@ std::vector<std::pair<std::string, std::function<bool(ImageBuf&, const Source&, 
           [](ImageBuf& d, const Source& s, ROI r, int n) {
               return ImageBufAlgo::detail_enhance(d, s, times(3.0f), r, n);
           } },
+        { "feature_lowpass by strength",
+          [](ImageBuf& d, const Source& s, ROI r, int n) {
+              return ImageBufAlgo::feature_lowpass(d, s, contrast(0.05f), r, n);
+          } },
+        { "feature_lowpass of logarithms",
+          [](ImageBuf& d, const Source& s, ROI r, int n) {
+              return ImageBufAlgo::feature_lowpass(d, s, contrast(0.2f, true), r, n);
+          } },
+        { "detail_enhance by strength",
+          [](ImageBuf& d, const Source& s, ROI r, int n) {
+              DetailEnhanceOptions options = times(3.0f);
+              options.noise = 3.0f;
+              return ImageBufAlgo::detail_enhance(d, s, options, r, n);
+          } },
         { "level_image",
-          [=](ImageBuf& d, const Source& s, ROI r, int n) { return ImageBufAlgo::level_image(d, s, level, r, n); } },
+          [=](ImageBuf& d, const Source& s, ROI r, int n) {
+              return ImageBufAlgo::level_image(d, s, level, r, n);
+          } },
         { "wireframe",
-          [=](ImageBuf& d, const Source& s, ROI r, int n) { return ImageBufAlgo::wireframe(d, s, wires, r, n); } },
+          [=](ImageBuf& d, const Source& s, ROI r, int n) {
+              return ImageBufAlgo::wireframe(d, s, wires, r, n);
+          } },
     };
 }
 
@@ -265,8 +293,13 @@ TEST(FilterErrors, TextIsParsedStrictly)
     std::string error;
     EXPECT_TRUE(set_option(options, "beta", "3.5", error)) << error;
     EXPECT_EQ(options.beta, 3.5f);
-    for (auto [key, value] : { std::pair { "beta", "lots" }, { "beta", "1e999" }, { "beta", "nan" }, { "beta", "" },
-                               { "beta", "3x" }, { "betta", "3" }, { "s0", "2" } }) {
+    for (auto [key, value] : { std::pair { "beta", "lots" },
+                               { "beta", "1e999" },
+                               { "beta", "nan" },
+                               { "beta", "" },
+                               { "beta", "3x" },
+                               { "betta", "3" },
+                               { "s0", "2" } }) {
         EXPECT_FALSE(set_option(options, key, value, error)) << key << "=" << value;
         EXPECT_NE(error.find(key), std::string::npos) << error;
     }

@@ -56,8 +56,10 @@ ImageBuf hdr_compress(const ProgressiveImage& src, const HdrCompressOptions& opt
 bool resolve_hdr_compress(const ProgressiveImage& src, HdrCompressOptions& options, std::string& error,
                           int nthreads = 0);
 
-/// Leaves out the details of all but the first splits: features stay, what is between them becomes
-/// linear (paper, section 4.1). All splits kept: the source.
+/// Smooths texture away and keeps features. By strength (the default): what is small in contrast for its size goes, edges and
+/// thin lines stay; one decision for all channels. strength = 0: the source, bit for bit.
+/// By splits or fraction (paper, section 4.1): leaves out the details of all but the first splits, so that what is between
+/// them becomes linear. All splits kept: the source.
 bool feature_lowpass(ImageBuf& dst, const ImageBuf& src, const FeatureLowpassOptions& options = {}, ROI roi = {},
                      int nthreads = 0);
 bool feature_lowpass(ImageBuf& dst, const ProgressiveImage& src, const FeatureLowpassOptions& options = {},
@@ -67,7 +69,8 @@ ImageBuf feature_lowpass(const ImageBuf& src, const FeatureLowpassOptions& optio
 ImageBuf feature_lowpass(const ProgressiveImage& src, const FeatureLowpassOptions& options = {}, ROI roi = {},
                          int nthreads = 0);
 
-/// Multiplies the details of a range of splits by `gain` (paper, section 4.1). gain = 1: the source, bit for bit.
+/// Multiplies details by `gain`: those of a range of splits (paper, section 4.1) or, with strength, noise or log, what
+/// feature_lowpass() of that strength removes, less on edges so that they keep their shape. gain = 1: the source, bit for bit.
 /// dst: floating point; results may exceed the source's range.
 bool detail_enhance(ImageBuf& dst, const ImageBuf& src, const DetailEnhanceOptions& options = {}, ROI roi = {},
                     int nthreads = 0);

@@ -92,14 +92,23 @@ struct WireframeOptions : LevelOptions {
     float line = 1.0f;     ///< width of the lines in pixels
 };
 
-/// Low-pass by position in the hierarchy (paper, section 4.1).
-struct FeatureLowpassOptions {
-    int splits = -1;         ///< n_l of the paper: vertex splits whose details are kept
-    float fraction = -1.0f;  ///< the same as a share of all splits; a tenth if neither is given
+/// How much is detail, for the filters that smooth by strength. At most one of strength and noise may be set.
+struct StrengthOptions {
+    float strength = -1.0f;  ///< contrast smoothed away, in units of the samples, or in stops with log
+    float noise = -1.0f;     ///< the same as a multiple of the estimated noise
+    bool log = false;        ///< work on the logarithm of every channel: for scene-referred pictures
 };
 
-/// Amplifies the details of a range of splits (paper, section 4.1).
-struct DetailEnhanceOptions {
+/// Low-pass by strength or, with splits or fraction, by position in the hierarchy (paper, section 4.1). At most one of
+/// the four may be set; none means a strength of 0.03, or 0.3 stops.
+struct FeatureLowpassOptions : StrengthOptions {
+    int splits = -1;         ///< n_l of the paper: vertex splits whose details are kept
+    float fraction = -1.0f;  ///< the same as a share of all splits
+};
+
+/// Amplifies the details of a range of splits (paper, section 4.1) or, with strength or noise, what feature_lowpass() of
+/// that strength removes.
+struct DetailEnhanceOptions : StrengthOptions {
     float gain = 2.0f;
     float from = 0.1f;  ///< first split amplified: a share of all splits, or a number of splits if above 1
     float to = 1.0f;    ///< end of the range, likewise

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the filters that work by strength need of a picture: its colour channels, as stored or their logarithms, ready for
+// core's smooth() and enhance().
+#pragma once
+
+#include <string>
+
+#include <OpenImageIO/imagebuf.h>
+
+#include <pimg/options.h>
+#include <pimg/progressive_image.h>
+#include <pimg/smoothing.h>
+
+namespace pimg {
+
+/// A logarithm for samples of either sign: in octaves, log2(x / unit) far above the unit and linear below it. 2^-10 of
+/// the picture's median magnitude is the unit: what is darker has no contrast worth keeping.
+class SignedLog {
+public:
+    SignedLog() = default;
+    explicit SignedLog(float unit) : m_unit(unit) { }
+    void to_log(float* values, std::size_t count) const;
+    void from_log(float* values, std::size_t count) const;
+
+private:
+    float m_unit = 1.0f;
+};
+
+/// Samples of the source are those here times 2^exponent, or from_log() of those here.
+struct SmoothingData {
+    SmoothingSource source;
+    bool log = false;
+    SignedLog scale;
+    int exponent = 0;
+    float noise = 0.0f;  ///< see noise_level()
+};
+
+/// The colour channels of the source, as they are.
+Rasters source_channels(const ProgressiveImage::Data& data);
+
+SmoothingData prepare_smoothing(const ProgressiveImage::Data& data, bool log);
+
+/// The strength the options ask for, in units of `smoothing`; the default if they do not say.
+float find_strength(const StrengthOptions& options, const SmoothingData& smoothing);
+
+/// Makes rasters of core's results ones of the picture's size, in its units.
+void to_picture(const Hierarchy& hierarchy, const SmoothingData& smoothing, Rasters& results);
+
+}  // namespace pimg
