@@ -105,7 +105,7 @@ Brush Brush::named(const std::string& name)
     };
     static constexpr Kind kKinds[] = { { "round", round_paint, 0.0f, 1 },
                                        { "flat", flat_paint, 0.15f, kVariants },
-                                       { "bristle", bristle_paint, 0.22f, kVariants },
+                                       { "bristle", bristle_paint, 0.16f, kVariants },
                                        { "knife", knife_paint, 0.12f, kVariants } };
     Brush brush;
     for (const Kind& kind : kKinds)

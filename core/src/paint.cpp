@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "sketch.h"
 
 namespace pimg {
 
@@ -40,10 +43,46 @@ Box united(Box a, Box b)
 /// the corners of square ends.
 float reach_of(const Stroke& stroke) { return 0.7072f * stroke.width + 1.0f; }
 
+/// Keeps paint on its side of an edge.
+class EdgeStop {
+public:
+    EdgeStop(const Strokes& strokes, const PaintSettings& settings)
+        : m_picture(*settings.edges, settings.parallel), m_least(kAcross * settings.crossing),
+          m_shades(stroke_colors(strokes, *settings.edges, *settings.edges, settings.parallel))
+    {
+        m_shades.resize(std::min(m_shades.size(), std::tuple_size<Shade>::value));
+    }
+
+    Shade shade(Index stroke) const
+    {
+        Shade shade {};
+        for (std::size_t c = 0; c < m_shades.size(); ++c)
+            shade[c] = m_shades[c][stroke];
+        return shade;
+    }
+
+    /// Share of a pixel paint of this shade may cover: 1 on its side of the edge, 1/2 half way across.
+    float share(const Shade& shade, int x, int y) const
+    {
+        const float off = m_picture.distance(m_picture.pixel(x, y), shade);
+        if (off <= 0.2f * m_least)
+            return 1.0f;
+        return std::clamp(0.5f + kSharpness * (0.5f - off / std::max(m_picture.contrast(x, y), m_least)), 0.0f, 1.0f);
+    }
+
+private:
+    static constexpr float kAcross = 2.5f;     ///< least difference, in crossings, that stops paint fully
+    static constexpr float kSharpness = 2.0f;  ///< makes up for the smoothing of the edges
+
+    ShadePicture m_picture;
+    float m_least;
+    std::vector<std::vector<float>> m_shades;
+};
+
 class TilePainter {
 public:
-    TilePainter(Box tile, const Brush& brush, const PaintSettings& settings, Canvas& canvas)
-        : m_tile(tile), m_brush(brush), m_settings(settings), m_canvas(canvas)
+    TilePainter(Box tile, const Brush& brush, const PaintSettings& settings, const EdgeStop* stop, Canvas& canvas)
+        : m_tile(tile), m_brush(brush), m_settings(settings), m_stop(stop), m_canvas(canvas)
     {
         std::fill(std::begin(m_distance), std::end(m_distance), kFar);
     }
@@ -53,12 +92,14 @@ public:
 private:
     void measure(Vec2 a, Vec2 b, float start, bool first, bool last, Box box);
     void look_up(const Stroke& stroke, float length, Box box);
+    void stop_at_edges(const Shade& shade, Box box);
     void blend(const std::vector<std::vector<float>>& colors, Index i, float brightness, float thickness, Box box);
     int slot(int x, int y) const { return (y - m_tile.y0) * kTile + (x - m_tile.x0); }
 
     Box m_tile;
     const Brush& m_brush;
     const PaintSettings& m_settings;
+    const EdgeStop* m_stop;
     Canvas& m_canvas;
     // Per pixel of the tile: squared distance from the middle line, and where beside it; then alpha and height.
     float m_distance[kTile * kTile], m_along[kTile * kTile], m_across[kTile * kTile];
@@ -122,6 +163,16 @@ void TilePainter::look_up(const Stroke& stroke, float length, Box box)
     }
 }
 
+void TilePainter::stop_at_edges(const Shade& shade, Box box)
+{
+    for (int y = box.y0; y < box.y1; ++y) {
+        const int row = slot(box.x0, y);
+        for (int k = 0; k < box.x1 - box.x0; ++k)
+            if (m_distance[row + k] < kFar && m_along[row + k] > 0.0f)
+                m_along[row + k] *= m_stop->share(shade, box.x0 + k, y);
+    }
+}
+
 void TilePainter::blend(const std::vector<std::vector<float>>& colors, Index i, float brightness, float thickness,
                         Box box)
 {
@@ -169,6 +220,8 @@ void TilePainter::paint(const Strokes& strokes, Index i, const std::vector<std::
     if (touched.empty())
         return;
     look_up(stroke, length, touched);
+    if (m_stop && (stroke.vertex != kGhost || m_settings.stop_ground))
+        stop_at_edges(m_stop->shade(i), touched);
     const float brightness = 1.0f + m_settings.jitter_color * signed_unit(scramble(stroke.variation + 3));
     blend(colors, i, brightness, 0.6f * std::sqrt(stroke.width), touched);
 }
@@ -193,10 +246,13 @@ void paint_strokes(const Strokes& strokes, const std::vector<std::vector<float>>
             for (int x = box.x0 / kTile; x <= (box.x1 - 1) / kTile; ++x)
                 of_tile[std::size_t(y) * std::size_t(columns) + std::size_t(x)].push_back(i);
     }
+    std::optional<EdgeStop> stop;
+    if (settings.edges)
+        stop.emplace(strokes, settings);
     run(settings.parallel, of_tile.size(), [&](std::size_t t) {
         const int x = int(t % std::size_t(columns)) * kTile, y = int(t / std::size_t(columns)) * kTile;
         const Box tile { x, y, std::min(x + kTile, canvas.width), std::min(y + kTile, canvas.height) };
-        TilePainter painter(tile, brush, settings, canvas);
+        TilePainter painter(tile, brush, settings, stop ? &*stop : nullptr, canvas);
         for (Index i : of_tile[t])
             painter.paint(strokes, i, colors);
     });

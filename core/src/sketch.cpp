@@ -9,7 +9,7 @@ namespace pimg {
 float difference(const Shade& a, const Shade& b, float per_channel)
 {
     float sum = 0.0f;
-    for (std::size_t c = 0; c < 4; ++c)
+    for (std::size_t c = 0; c < a.size(); ++c)
         sum += (a[c] - b[c]) * (a[c] - b[c]);
     return std::sqrt(sum * per_channel);
 }
@@ -21,7 +21,7 @@ ShadePicture::ShadePicture(const Planes& guides, const ParallelFor& parallel)
 {
     constexpr int kRows = 32;
     constexpr float kKernel[5] = { 0.0625f, 0.25f, 0.375f, 0.25f, 0.0625f };
-    const std::size_t channels = std::min<std::size_t>(4, guides.channels.size());
+    const std::size_t channels = std::min(kChannels, guides.channels.size());
     run(parallel, std::size_t(m_height + kRows - 1) / kRows, [&](std::size_t block) {
         std::vector<float> column(std::size_t(m_width) + 4);
         const int first = int(block) * kRows, last = std::min(m_height, first + kRows);
@@ -45,6 +45,25 @@ ShadePicture::ShadePicture(const Planes& guides, const ParallelFor& parallel)
     });
 }
 
+Shade ShadePicture::between(Vec2 p) const
+{
+    const float fx = std::clamp(p.x, 0.0f, float(m_width - 1)), fy = std::clamp(p.y, 0.0f, float(m_height - 1));
+    const int x = int(fx), y = int(fy), right = std::min(x + 1, m_width - 1), below = std::min(y + 1, m_height - 1);
+    const float wx = fx - float(x), wy = fy - float(y);
+    Shade result;
+    for (std::size_t c = 0; c < kChannels; ++c)
+        result[c] = (1 - wy) * ((1 - wx) * pixel(x, y)[c] + wx * pixel(right, y)[c])
+                    + wy * ((1 - wx) * pixel(x, below)[c] + wx * pixel(right, below)[c]);
+    return result;
+}
+
+float ShadePicture::contrast(int x, int y) const
+{
+    const int left = std::max(x - 2, 0), right = std::min(x + 2, m_width - 1);
+    const int above = std::max(y - 2, 0), below = std::min(y + 2, m_height - 1);
+    return std::max(distance(pixel(left, y), pixel(right, y)), distance(pixel(x, above), pixel(x, below)));
+}
+
 Sketch::Sketch(const ShadePicture& picture, int cell)
     : m_picture(picture), m_cell(cell), m_columns((picture.width() + cell - 1) / cell),
       m_rows((picture.height() + cell - 1) / cell), m_wanted(std::size_t(m_columns) * std::size_t(m_rows)),
@@ -56,7 +75,7 @@ Sketch::Sketch(const ShadePicture& picture, int cell)
             const int right = std::min(picture.width(), (x + 1) * cell), bottom = std::min(picture.height(), (y + 1) * cell);
             for (int py = y * cell; py < bottom; ++py)
                 for (int px = x * cell; px < right; ++px)
-                    for (std::size_t c = 0; c < 4; ++c)
+                    for (std::size_t c = 0; c < sum.size(); ++c)
                         sum[c] += picture.pixel(px, py)[c];
             const float share = 1.0f / float((right - x * cell) * (bottom - y * cell));
             for (float& s : sum)

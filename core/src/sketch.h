@@ -10,13 +10,15 @@
 namespace pimg {
 
 /// A colour in guide units; channels the guides do not have are 0.
-using Shade = std::array<float, 4>;
+using Shade = std::array<float, 3>;
 
 /// Root mean square difference over `channels`.
 float difference(const Shade& a, const Shade& b, float per_channel);
 
 /// Guides with a little smoothing (sigma one pixel), interleaved for quick reading at any place.
 class ShadePicture {
+    static constexpr std::size_t kChannels = std::tuple_size<Shade>::value;
+
 public:
     explicit ShadePicture(const Planes& guides, const ParallelFor& parallel);
 
@@ -25,10 +27,15 @@ public:
         const int x = p.x > 0.0f ? int(p.x + 0.5f) : 0, y = p.y > 0.0f ? int(p.y + 0.5f) : 0;
         return pixel(x < m_width ? x : m_width - 1, y < m_height ? y : m_height - 1);
     }
+    /// Bilinear.
+    Shade between(Vec2 p) const;
     const Shade& pixel(int x, int y) const
     {
         return m_shades[std::size_t(y) * std::size_t(m_width) + std::size_t(x)];
     }
+    /// Difference between the two sides of an edge through the pixel; small where there is none.
+    float contrast(int x, int y) const;
+
     float distance(const Shade& a, const Shade& b) const { return difference(a, b, m_per_channel); }
     int width() const { return m_width; }
     int height() const { return m_height; }

@@ -20,6 +20,9 @@ constexpr float kShortest = 2.0f, kLongest = 8.0f;
 /// What a cell without paint counts as, in 8-bit units off: more than any shade is worth, less than black for white.
 constexpr float kBare = 64.0f;
 
+/// Pixels after which an edge has reached its other side, in the smoothed picture.
+constexpr float kEdgeWidth = 2.0f;
+
 /// Distance of places, in widths.
 constexpr float kPitch = 0.5f;
 
@@ -64,17 +67,25 @@ void Planner::fit_between_edges(Draft& draft, Vec2 along, float min) const
     Vec2& centre = draft.points[kMostPoints];
     const Vec2 across { -along.y, along.x };
     const float half = 0.5f * draft.width, step = std::max(0.75f, 0.125f * draft.width);
+    const auto off = [&](float v) {
+        return m_picture.distance(m_picture.between({ centre.x + v * across.x, centre.y + v * across.y }), draft.shade);
+    };
     float free[2];
     for (int side = 0; side < 2; ++side) {
         const float sign = side ? 1.0f : -1.0f;
-        float reached = 0.0f;
+        float reached = 0.0f, before = 0.0f;
         while (reached < half) {
-            const float next = std::min(reached + step, half);
-            if (!is_same({ centre.x + sign * next * across.x, centre.y + sign * next * across.y }, draft.shade))
+            const float next = std::min(reached + step, half), here = off(sign * next);
+            if (here > m_options.crossing) {
+                // The edge is where half of the difference between its sides is reached.
+                const float level = std::max(m_options.crossing, 0.5f * off(sign * (next + kEdgeWidth)));
+                reached += step * std::min(1.0f, (level - before) / std::max(here - before, 1e-3f));
                 break;
+            }
             reached = next;
+            before = here;
         }
-        free[side] = reached;
+        free[side] = std::min(reached, half);
     }
     const float room = free[0] + free[1];
     if (room >= draft.width)
@@ -200,7 +211,7 @@ Status plan_strokes(const Hierarchy& hierarchy, const Planes& guides, const Dire
     if (!status)
         return status;
     const ShadePicture picture(guides, options.parallel);
-    Sketch sketch(picture, std::max(1, int(0.5f * options.min)));
+    Sketch sketch(picture, std::max(1, int(0.67f * options.min + 0.5f)));
     const Planner planner(picture, field, options);
 
     Strokes laid;

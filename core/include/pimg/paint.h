@@ -19,6 +19,12 @@ struct Canvas {
 struct PaintSettings {
     float opacity = 1.0f;       ///< of every stroke, 0..1
     float jitter_color = 0.0f;  ///< 0..1: largest random change of a stroke's brightness, as a share of it
+    /// Edges that stop the paint, up to three channels in steps of an 8-bit picture, or null: a stroke covers a pixel
+    /// as far as the pixel is on the stroke's side of the edge, and so ends exactly where the picture's edge does,
+    /// anti-aliased as it is there. Strokes without a vertex, the ground under all others, are not stopped.
+    const Planes* edges = nullptr;
+    bool stop_ground = false;  ///< stop those too: for a canvas that already shows the picture
+    float crossing = 14.0f;  ///< differences below this are no edge
     ParallelFor parallel;
 };
 

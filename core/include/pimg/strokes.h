@@ -28,7 +28,7 @@ struct Dab {
 };
 
 struct DabOptions {
-    float min = 4.0f, max = 32.0f;  ///< range of the width in pixels; nothing outside it is returned
+    float min = 3.0f, max = 32.0f;  ///< range of the width in pixels; nothing outside it is returned
     /// Detail map, row-major, size of the picture, 0..1, or null: the range is scaled by 4^(1 - 2 m), so that
     /// 1 asks for strokes a quarter of the size, 0 for four times, 0.5 leaves it alone.
     const float* detail = nullptr;
@@ -63,15 +63,15 @@ struct Strokes {
 
 struct StrokeOptions : DabOptions {
     float length = 1.0f;        ///< factor on the length pieces suggest, 0..10
-    float tolerance = 4.0f;     ///< least mean improvement over what is already painted, 8-bit units; 0 paints all
-    float crossing = 20.0f;     ///< colour difference no stroke runs across, 8-bit units
+    float tolerance = 3.0f;     ///< least mean improvement over what is already painted, 8-bit units; 0 paints all
+    float crossing = 14.0f;     ///< colour difference no stroke runs across, 8-bit units
     float jitter_angle = 0.0f;  ///< 0..1: largest random turn as a share of 45 degrees
     float jitter_size = 0.0f;   ///< 0..1: largest random change of the width, as a share of it
     std::uint32_t seed = 1;
     ParallelFor parallel;
 };
 
-/// Plans the strokes of a painting. `guides` are up to four channels in steps of an 8-bit picture: what
+/// Plans the strokes of a painting. `guides` are up to three channels in steps of an 8-bit picture: what
 /// they tell apart, strokes keep apart.
 Status plan_strokes(const Hierarchy& hierarchy, const Planes& guides, const DirectionField& field,
                     const StrokeOptions& options, Strokes& strokes);
