@@ -15,56 +15,64 @@ struct VolumeStencil {
     int size = 0;
     Index vertex[2 * kMaxDegree];
     float weight[2 * kMaxDegree];
-
-    void add(Index v, double w)
-    {
-        vertex[size] = v;
-        weight[size++] = float(w);
-    }
 };
 
-/// For the split of s into t (number s in `fine`) and u; `coarse` is where s will be.
+double area(Point a, Point b, Point c)
+{
+    return double(doubled_area(a, b, c));
+}
+
+/// For the edge from t (number s in `fine`) to u, its last vertex; `coarse` is where s will be.
 VolumeStencil volume_stencil(const Mesh& fine, Index s, Index u, Point coarse)
 {
-    const Point t = fine.point(s), pu = fine.point(u);
-    // Twice the area each ring vertex loses (old fans minus new star), and the whole star's.
+    // The star of s: ring of t from vr to vl, then that of u back to vr.
+    const RingView of_t = fine.ring(s), of_u = fine.ring(u);
     VolumeStencil stencil;
-    double ring_share[2 * kMaxDegree], of_u = 0.0, star = 0.0;
-    Index ring[2 * kMaxDegree];
+    Point points[2 * kMaxDegree];
     int n = 0;
-    const auto slot = [&](Index v) {
-        const int at = int(std::find(ring, ring + n, v) - ring);
-        if (at == n) {
-            ring[n] = v;
-            ring_share[n++] = 0.0;
-        }
-        return at;
+    const auto add = [&](Index q) {
+        points[n] = q == kGhost ? Point {} : fine.point(q);
+        stencil.vertex[n++] = q;
     };
-    const auto add_fan = [&](Index centre, Point p, Index other) {
-        const RingView r = fine.ring(centre);
-        for (int j = 0; j < r.degree; ++j) {
-            const Index a = r[j], b = r[j + 1 < r.degree ? j + 1 : 0];
-            if (a == kGhost || b == kGhost)
-                continue;
-            const bool shared = a == other || b == other;
-            if (shared && centre == u)
-                continue;  // counted in the fan of t
-            const double before = double(doubled_area(p, fine.point(a), fine.point(b)));
-            if (centre == u || shared)
-                of_u += before;
-            const double after = shared ? 0.0 : double(doubled_area(coarse, fine.point(a), fine.point(b)));
-            star += after;
-            if (a != other)
-                ring_share[slot(a)] += before - after;
-            if (b != other)
-                ring_share[slot(b)] += before - after;
-        }
-    };
-    add_fan(s, t, u);
-    add_fan(u, pu, s);
+    const int at = int(std::find(of_t.begin(), of_t.end(), u) - of_t.begin());
+    for (int k = at + 1; k < at + of_t.degree; ++k)
+        add(of_t[k < of_t.degree ? k : k - of_t.degree]);
+    const int vl = n - 1;
+    const int back = int(std::find(of_u.begin(), of_u.end(), s) - of_u.begin());
+    for (int k = back + 2; k < back + of_u.degree - 1; ++k)
+        add(of_u[k < of_u.degree ? k : k - of_u.degree]);
+
+    // Twice the area each corner of the star loses, old triangles minus new, and twice the area around u.
+    const Point t = fine.point(s), pu = fine.point(u);
+    double lost[2 * kMaxDegree] = {}, around_u = 0.0, star = 0.0;
+    for (int i = 0; i < n; ++i) {
+        const int next = i + 1 < n ? i + 1 : 0;
+        if (stencil.vertex[i] == kGhost || stencil.vertex[next] == kGhost)
+            continue;
+        const double before = area(i < vl ? t : pu, points[i], points[next]);
+        const double after = area(coarse, points[i], points[next]);
+        star += after;
+        around_u += i < vl ? 0.0 : before;
+        lost[i] += before - after;
+        lost[next] += before - after;
+    }
+    if (stencil.vertex[0] != kGhost) {
+        const double shared = area(t, pu, points[0]);
+        lost[0] += shared;
+        around_u += shared;
+    }
+    if (stencil.vertex[vl] != kGhost) {
+        const double shared = area(t, points[vl], pu);
+        lost[vl] += shared;
+        around_u += shared;
+    }
     for (int i = 0; i < n; ++i)
-        stencil.add(ring[i], ring_share[i] / star);
-    stencil.add(u, of_u / star);
+        if (stencil.vertex[i] != kGhost) {
+            stencil.vertex[stencil.size] = stencil.vertex[i];
+            stencil.weight[stencil.size++] = float(lost[i] / star);
+        }
+    stencil.vertex[stencil.size] = u;
+    stencil.weight[stencil.size++] = float(around_u / star);
     return stencil;
 }
 

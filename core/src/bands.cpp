@@ -47,13 +47,16 @@ std::vector<float> values_at(const Hierarchy& h, const Bands& bands, Level level
     return values;
 }
 
-Status rebase(Hierarchy& h, Bands& bands, Level level)
+Status rebase(Hierarchy& h, std::vector<Bands>& bands, Level level)
 {
     Mesh mesh;
     const Status status = refine(h, level, mesh);
     if (!status)
         return status;
-    bands.base = values_at(h, bands, level);
+    for (Bands& b : bands) {
+        b.base = values_at(h, b, level);
+        b.details.erase(b.details.begin(), b.details.begin() + level);
+    }
     h.base_triangles = mesh.triangles();
     h.base_points.resize(mesh.size());
     for (Index v = 0; v < mesh.size(); ++v)
@@ -61,7 +64,6 @@ Status rebase(Hierarchy& h, Bands& bands, Level level)
     h.splits.erase(h.splits.begin(), h.splits.begin() + level);
     h.stencils.erase(h.stencils.begin(), h.stencils.begin() + level);
     h.costs.erase(h.costs.begin(), h.costs.begin() + level);
-    bands.details.erase(bands.details.begin(), bands.details.begin() + level);
     return {};
 }
 

@@ -67,12 +67,14 @@ std::vector<Index> number_names(std::size_t names, const std::vector<BaseVertex>
     return number;
 }
 
-void fill_base(const std::vector<BaseVertex>& base, const std::vector<Index>& number, Hierarchy& h, Bands& bands)
+void fill_base(const std::vector<BaseVertex>& base, const std::vector<Index>& number, Hierarchy& h,
+               std::vector<Bands>& bands)
 {
     for (const BaseVertex& v : base) {
         const Index n = number[v.name];
         h.base_points.push_back(v.p);
-        bands.base.push_back(v.z);
+        for (std::size_t c = 0; c < bands.size(); ++c)
+            bands[c].base.push_back(v.z[c]);
         for (int j = 0; j < v.degree; ++j) {
             const Index a = v.ring.v[std::size_t(j)], b = v.ring.v[std::size_t((j + 1) % v.degree)];
             if (a != kGhost && b != kGhost && n < number[a] && n < number[b])
@@ -82,45 +84,50 @@ void fill_base(const std::vector<BaseVertex>& base, const std::vector<Index>& nu
 }
 
 /// Splits, stencils and costs in coarse-to-fine order; details hold the true intensities of t and u for now.
-void fill_splits(const std::vector<CollapseRecord>& records, const std::vector<Index>& by_order,
-                 const std::vector<Index>& number, Hierarchy& h, Bands& bands)
+void fill_splits(const CollapseSequence& sequence, const std::vector<Index>& by_order, const std::vector<Index>& number,
+                 Hierarchy& h, std::vector<Bands>& bands)
 {
-    const std::size_t n = records.size();
+    const std::size_t n = sequence.records.size(), more = bands.size() - 1;
     h.splits.resize(n);
     h.stencils.resize(n);
     h.costs.resize(n);
-    bands.details.resize(n);
+    for (Bands& b : bands)
+        b.details.resize(n);
     const auto renumber = [&](Index name) { return name == kGhost ? kGhost : number[name]; };
     for (std::size_t i = 0; i < n; ++i) {
-        const CollapseRecord& r = records[by_order[n - 1 - i]];
+        const std::size_t from = by_order[n - 1 - i];
+        const CollapseRecord& r = sequence.records[from];
         h.splits[i] = { number[r.split.s], renumber(r.split.vl), renumber(r.split.vr), r.split.t, r.split.u };
         h.stencils[i] = { number[r.stencil.s], number[r.stencil.at], number[r.stencil.bt], number[r.stencil.au],
                           number[r.stencil.bu], r.stencil.wat, r.stencil.wbt, r.stencil.wau, r.stencil.wbu };
         h.costs[i] = r.order;
-        bands.details[i] = { r.zt, r.zu };
+        bands[0].details[i] = { r.zt, r.zu };
+        for (std::size_t c = 0; c < more; ++c)
+            bands[c + 1].details[i] = sequence.more[from * more + c];
     }
 }
 
 }  // namespace
 
-Status assemble(int width, int height, const std::vector<BaseVertex>& base, std::vector<CollapseRecord>&& records,
-                Index base_faces, Hierarchy& hierarchy, Bands& bands)
+Status assemble(int width, int height, CollapseSequence&& sequence, Index base_faces, Hierarchy& hierarchy,
+                std::vector<Bands>& bands)
 {
     Hierarchy h;
-    Bands b;
+    std::vector<Bands> b(std::size_t(sequence.channels));
     h.width = width;
     h.height = height;
     {
-        const std::vector<CollapseRecord> collapses = std::move(records);
-        const std::vector<Index> by_order = sorted(collapses);
-        const std::vector<Index> number = number_names(h.mesh_pixels(), base, collapses, by_order);
-        fill_base(base, number, h, b);
-        fill_splits(collapses, by_order, number, h, b);
+        const CollapseSequence done = std::move(sequence);
+        const std::vector<Index> by_order = sorted(done.records);
+        const std::vector<Index> number = number_names(h.mesh_pixels(), done.base, done.records, by_order);
+        fill_base(done.base, number, h, b);
+        fill_splits(done, by_order, number, h, b);
         h.pixels.resize(h.mesh_pixels());
         for (Index name = 0; name < Index(number.size()); ++name)
             h.pixels[number[name]] = name;
     }
-    values_to_details(h, b);
+    for (Bands& channel : b)
+        values_to_details(h, channel);
     const Level level = h.level_of_faces(base_faces);
     Status status = level > 0 ? rebase(h, b, level) : Status();
     if (status) {

@@ -23,16 +23,24 @@ struct CollapseRecord {
 struct BaseVertex {
     Index name;
     Point p;
-    float z;
+    std::vector<float> z;  ///< of every guide channel
     Ring ring;   ///< by name
     int degree;
+};
+
+/// All that is known when nothing is left to collapse.
+struct CollapseSequence {
+    int channels = 1;
+    std::vector<CollapseRecord> records;
+    std::vector<Detail> more;      ///< zt and zu of the channels after the first, channels - 1 a record
+    std::vector<BaseVertex> base;
 };
 
 /// Sorts the collapses by order (any two that do not depend on each other commute), numbers the vertices by
 /// the split that makes them, turns intensities into details, and keeps the coarsest level
 /// of at least `base_faces` triangles as base mesh.
-Status assemble(int width, int height, const std::vector<BaseVertex>& base, std::vector<CollapseRecord>&& records,
-                Index base_faces, Hierarchy& hierarchy, Bands& bands);
+Status assemble(int width, int height, CollapseSequence&& sequence, Index base_faces, Hierarchy& hierarchy,
+                std::vector<Bands>& bands);
 
 /// Face (s, a, b) of the star of s that holds `p`, and the weights of a and b. `ring` is that of s in
 /// the coarser mesh starting with vr of the split; the first face that holds p is taken, from exact integers: everybody who

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The driver of the simplification. Locality is what it costs, not arithmetic: so there is no global
 // queue. Tiles are visited in order, each is collapsed up to a cost limit while it sits in the cache, and the limit
-// rises from sweep to sweep. Inside a tile the limit rises in finer steps. Keys are lazy: a vertex is
+// rises from sweep to sweep; inside a tile it rises in finer steps. Keys are lazy: a vertex is
 // evaluated again only when its old cost comes up. Why this loses no quality: docs/internals.md.
 #include <pimg/simplify.h>
 
@@ -19,8 +19,6 @@ namespace {
 
 constexpr float kFirstLimit = 1e-3f;  ///< about the cost floor of a pixel-sized edge
 constexpr float kSweepFactor = 4.0f;  ///< between the limits of successive sweeps
-/// Shares of a sweep's limit through which a tile approaches it: powers of 4^(1/6).
-constexpr float kSteps[] = { 0.31498026f, 0.39685026f, 0.5f, 0.62996052f, 0.79370052f, 1.0f };
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// Shape a triangle must keep: twice its area over its longest edge squared. The second
@@ -29,17 +27,19 @@ constexpr float kGuards[2] = { 1e-3f, 1e-5f };
 
 class Simplifier {
 public:
-    Simplifier(const float* samples, int width, int height, const SimplifyOptions& options)
-        : m_mesh(samples, width, height), m_options(options), m_total(m_mesh.alive())
+    Simplifier(const Guide& guide, const SimplifyOptions& options)
+        : m_mesh(guide), m_options(options), m_total(m_mesh.alive())
     {
+        m_sequence.channels = int(guide.channels.size());
         m_stats.peak_bytes = m_mesh.bytes();
+        pimg::run(options.parallel, m_mesh.tiles.size(),
+                  [&](std::size_t i) { add_up_fans(m_mesh, m_mesh.tiles[i].first, m_mesh.tiles[i].last); });
     }
 
     /// False when progress asked to stop.
     bool run();
 
-    std::vector<BaseVertex> base() const;
-    std::vector<CollapseRecord> take_records() { return std::move(m_records); }
+    CollapseSequence take_sequence();
     const SimplifyStats& stats() const { return m_stats; }
 
 private:
@@ -53,7 +53,7 @@ private:
     const SimplifyOptions& m_options;
     Index m_total;
     float m_guard = kGuards[0];
-    std::vector<CollapseRecord> m_records;
+    CollapseSequence m_sequence;
     std::vector<Index> m_deferred;
     std::vector<TileOutput> m_outputs;
     SimplifyStats m_stats;
@@ -81,14 +81,14 @@ bool Simplifier::sweep(float limit)
     }
     // What reached beyond its tile's zone, alone and in order.
     TileOutput output;
-    TileWorker worker(m_mesh, Zone { 0, 0, ~0u, ~0u }, m_guard, output);
     std::vector<Index> deferred;
     deferred.swap(m_deferred);
-    worker.run(deferred, limit);
+    collapse_listed(m_mesh, deferred, { Zone { 0, 0, ~0u, ~0u }, limit, m_guard }, output);
     collect(output);
     m_mesh.compact_if_sparse();
     m_stats.peak_bytes
-        = std::max(m_stats.peak_bytes, m_mesh.bytes() + m_records.capacity() * sizeof(CollapseRecord));
+        = std::max(m_stats.peak_bytes, m_mesh.bytes() + m_sequence.records.capacity() * sizeof(CollapseRecord)
+                       + m_sequence.more.capacity() * sizeof(Detail));
     return true;
 }
 
@@ -100,9 +100,7 @@ void Simplifier::sweep_color(int color, float limit)
             tiles.push_back(&tile);
     m_outputs.resize(std::max(m_outputs.size(), tiles.size()));
     pimg::run(m_options.parallel, tiles.size(), [&](std::size_t i) {
-        TileWorker worker(m_mesh, m_mesh.zone(*tiles[i]), m_guard, m_outputs[i]);
-        for (float share : kSteps)
-            worker.run(*tiles[i], limit * share);
+        collapse_tile(m_mesh, *tiles[i], { m_mesh.zone(*tiles[i]), limit, m_guard }, m_outputs[i]);
     });
     for (std::size_t i = 0; i < tiles.size(); ++i)
         collect(m_outputs[i]);
@@ -110,7 +108,8 @@ void Simplifier::sweep_color(int color, float limit)
 
 void Simplifier::collect(TileOutput& output)
 {
-    m_records.insert(m_records.end(), output.records.begin(), output.records.end());
+    m_sequence.records.insert(m_sequence.records.end(), output.records.begin(), output.records.end());
+    m_sequence.more.insert(m_sequence.more.end(), output.more.begin(), output.more.end());
     m_deferred.insert(m_deferred.end(), output.deferred.begin(), output.deferred.end());
     m_mesh.add_dead(Index(output.records.size()));
     m_stats.collapses += output.records.size();
@@ -129,52 +128,70 @@ bool Simplifier::report() const
     return !m_options.progress || m_options.progress(1.0f - float(m_mesh.alive()) / float(m_total));
 }
 
-std::vector<BaseVertex> Simplifier::base() const
+CollapseSequence Simplifier::take_sequence()
 {
-    std::vector<BaseVertex> base;
+    std::vector<BaseVertex>& base = m_sequence.base;
     for (Index v = 0; v < Index(m_mesh.nodes.size()); ++v) {
         const Node& node = m_mesh.nodes[v];
         if (node.degree == 0)
             continue;
-        BaseVertex b { node.name, node.p, node.z, m_mesh.rings[v], node.degree };
+        BaseVertex b { node.name, node.p, { node.z }, m_mesh.rings[v], node.degree };
+        for (int c = 0; c < m_mesh.more_channels; ++c)
+            b.z.push_back(m_mesh.more_of(v)[c].value);
         for (int j = 0; j < b.degree; ++j) {
             Index& q = b.ring.v[std::size_t(j)];
             q = q == kGhost ? kGhost : m_mesh.nodes[q].name;
         }
-        base.push_back(b);
+        base.push_back(std::move(b));
     }
     std::sort(base.begin(), base.end(), [](const BaseVertex& a, const BaseVertex& b) { return a.name < b.name; });
-    return base;
+    return std::move(m_sequence);
 }
 
-}  // namespace
-
-Status simplify(const Guide& guide, const SimplifyOptions& options, Hierarchy& hierarchy, Bands& bands,
-                SimplifyStats* stats)
+/// One line on what is wrong with a guide; nothing if it can be built from.
+Status check(const Guide& guide)
 {
     constexpr int kMaxSide = 1 << 20;
-    if (!guide.samples || guide.width < 1 || guide.height < 1)
+    if (guide.width < 1 || guide.height < 1)
         return Status::failure("the picture is empty");
     if (guide.width > kMaxSide || guide.height > kMaxSide
         || std::uint64_t(guide.width) * std::uint64_t(guide.height) > (1ull << 31))
         return Status::failure("the picture is larger than 2^20 pixels a side or 2^31 in all");
+    if (guide.channels.empty() || guide.channels.size() > std::size_t(kMaxGuideChannels))
+        return Status::failure("a guide needs 1 to " + std::to_string(kMaxGuideChannels) + " channels");
+    for (const GuideChannel& c : guide.channels)
+        if (!c.samples || !(c.weight > 0.0f) || !std::isfinite(c.weight))
+            return Status::failure("a guide channel has no samples or a weight that is not positive");
+    return {};
+}
 
+}  // namespace
+
+Status simplify(const Guide& guide, const SimplifyOptions& options, Hierarchy& hierarchy, std::vector<Bands>& bands,
+                SimplifyStats* stats)
+{
+    if (const Status status = check(guide); !status)
+        return status;
     Hierarchy shape;
     shape.width = guide.width;
     shape.height = guide.height;
-    const std::vector<float> samples = to_mesh_pixels(shape, guide.samples);
-    std::vector<BaseVertex> base;
-    std::vector<CollapseRecord> records;
+    Guide on_mesh { shape.mesh_width(), shape.mesh_height(), guide.channels };
+    std::vector<std::vector<float>> samples;
+    for (GuideChannel& c : on_mesh.channels) {
+        samples.push_back(to_mesh_pixels(shape, c.samples));
+        c.samples = samples.back().data();
+    }
+    CollapseSequence sequence;
     {
-        Simplifier simplifier(samples.data(), shape.mesh_width(), shape.mesh_height(), options);
+        Simplifier simplifier(on_mesh, options);
+        samples.clear();
         if (!simplifier.run())
             return Status::failure("building was stopped");
-        base = simplifier.base();
-        records = simplifier.take_records();
+        sequence = simplifier.take_sequence();
         if (stats)
             *stats = simplifier.stats();
     }
-    return assemble(guide.width, guide.height, base, std::move(records), options.base_faces, hierarchy, bands);
+    return assemble(guide.width, guide.height, std::move(sequence), options.base_faces, hierarchy, bands);
 }
 
 }  // namespace pimg

@@ -5,28 +5,133 @@
 #include <cmath>
 #include <limits>
 
-namespace pimg {
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tile_worker.cpp"
+#include <hwy/foreach_target.h>
 
-namespace {
+#include <hwy/highway.h>
+
+#include "collapse_cost-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pimg {
+namespace HWY_NAMESPACE {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kPixel = 1.0f / float(kSubpixels);
 
-float on_lattice(float v)
+/// Shares of the limit through which a tile approaches it: powers of 4^(1/6).
+constexpr float kSteps[] = { 0.31498026f, 0.39685026f, 0.5f, 0.62996052f, 0.79370052f, 1.0f };
+
+/// Key of a vertex just made, as a multiple of the cost that made it. Its edges are hardly ever cheaper than
+/// that; not looking at once saves an evaluation in nine and changes no quality (docs/internals.md).
+constexpr float kFreshKey = 3.0f;
+
+/// Stands in for the ghost and for lanes past the degree.
+const Node kNoNode = {};
+
+inline int lanes_for(int degree)
 {
-    return std::nearbyint(v * float(kSubpixels)) * kPixel;
+    return degree <= 8 ? 8 : kLanes;
 }
 
-}  // namespace
-
-void TileWorker::run(const Tile& tile, float limit)
+HWY_INLINE void clear(Corners& c, int lanes)
 {
-    m_candidates.clear();
-    for (Index v = tile.first; v < tile.last; ++v)
-        if (m_mesh.keys[v] <= limit)
-            m_candidates.push_back(v);
-    run(m_candidates, limit);
+    const Lanes d;
+    for (int j = 0; j < lanes; j += int(hn::Lanes(d)))
+        for (float* of : { c.x, c.y, c.z, c.real })
+            hn::Store(hn::Zero(d), d, of + j);
 }
+
+/// Numbers of the vertices of a tile whose key is at most `limit`.
+HWY_INLINE void collect(const WorkingMesh& mesh, const Tile& tile, float limit, std::vector<Index>& candidates)
+{
+    const Lanes d;
+    const Index step = Index(hn::Lanes(d));
+    const auto most = hn::Set(d, limit);
+    candidates.clear();
+    for (Index v = tile.first; v < tile.last; v += step) {
+        const bool partial = v + step > tile.last;
+        if (!partial && hn::AllFalse(d, hn::Le(hn::LoadU(d, &mesh.keys[v]), most)))
+            continue;
+        for (Index q = v; q < (partial ? tile.last : v + step); ++q)
+            if (mesh.keys[q] <= limit)
+                candidates.push_back(q);
+    }
+}
+
+/// Copies four neighbours' nodes into lanes j .. j + 3: twelve floats each, turned on their side.
+HWY_INLINE void load_nodes(const Node* const (&from)[4], Point centre, float centre_z, int j, EdgeFan& fan)
+{
+    const Four f;
+    const hn::FixedTag<std::int32_t, 4> i;
+    V4 row[4][3];
+    for (int k = 0; k < 4; ++k)
+        for (int part = 0; part < 3; ++part)
+            row[k][part] = hn::Load(f, &from[k]->sums.xx + 4 * part);
+    for (int part = 0; part < 3; ++part)
+        transpose(row[0][part], row[1][part], row[2][part], row[3][part]);
+    for (int k = 0; k < 4; ++k)
+        hn::Store(row[k][0], f, fan.a[k] + j);
+    hn::Store(row[0][1], f, fan.a[4] + j);
+    hn::Store(row[1][1], f, fan.a[5] + j);
+    hn::Store(row[2][1], f, fan.n[0] + j);
+    hn::Store(row[3][1], f, fan.n[1] + j);
+    hn::Store(row[0][2], f, fan.n[2] + j);
+    const V4 real = hn::Load(f, fan.corners.real + j), pixel = hn::Set(f, kPixel);
+    const auto px = hn::BitCast(i, row[2][2]) - hn::Set(i, centre.x);
+    const auto py = hn::BitCast(i, row[3][2]) - hn::Set(i, centre.y);
+    hn::Store(real * (row[1][2] - hn::Set(f, centre_z)), f, fan.corners.z + j);
+    hn::Store(real * (hn::ConvertTo(f, px) * pixel), f, fan.corners.x + j);
+    hn::Store(real * (hn::ConvertTo(f, py) * pixel), f, fan.corners.y + j);
+}
+
+/// The star s will have: ring of t from vr to vl, then that of u back to vr.
+struct Star {
+    int degree, vl;   ///< place of vl; vr is at 0
+    Corners corners;  ///< relative to t
+    alignas(64) float more_z[kMaxGuideChannels - 1][kLanes + 8];
+    Index ring[kLanes];
+    Point points[kLanes];
+};
+
+struct Placement {
+    float x, y;
+};
+
+class TileWorker {
+public:
+    TileWorker(WorkingMesh& mesh, const TileJob& job, TileOutput& output)
+        : m_mesh(mesh), m_zone(job.zone), m_guard(job.guard), m_out(output)
+    {
+        m_fan.more_channels = mesh.more_channels;
+        std::copy(mesh.weights.begin(), mesh.weights.end(), m_fan.weights);
+    }
+
+    void run(const std::vector<Index>& vertices, float limit);
+    void add_up_fan(Index v);
+
+private:
+    void visit(Index v, float limit);
+    bool load_fan(Index v, bool check_zone);
+    void load_more_channels(Index v);
+    void keep_sums(Index v);
+    int cheapest() const;
+    bool load_star(Index t, int j, bool& deferred);
+    bool find_placement(int j, float limit, float& cost, Placement& place) const;
+    bool keeps_shape(float x, float y) const;
+    void collapse(Index t, int j, const Placement& place, float cost);
+    void record(Index t, Index u, Point coarse, float order);
+    void update_sums(Index t, int j, const Placement& place);
+    void update_rings(Index t, Index u);
+
+    WorkingMesh& m_mesh;
+    Zone m_zone;
+    float m_guard;
+    TileOutput& m_out;
+    EdgeFan m_fan;
+    Star m_star;
+};
 
 void TileWorker::run(const std::vector<Index>& vertices, float limit)
 {
@@ -45,16 +150,31 @@ void TileWorker::run(const std::vector<Index>& vertices, float limit)
     }
 }
 
+void TileWorker::add_up_fan(Index v)
+{
+    load_fan(v, false);
+    add_up_channels(m_fan);
+    keep_sums(v);
+}
+
+/// Stores the sums just added up: what updates left of rounding is gone.
+void TileWorker::keep_sums(Index v)
+{
+    m_mesh.nodes[v].sums = m_fan.sums;
+    for (int c = 0; c < m_fan.more_channels; ++c)
+        m_mesh.more_of(v)[c] = m_fan.more[c].sums;
+}
+
 /// Evaluates the edges of v; collapses the cheapest that may be, or files v under its cost.
 void TileWorker::visit(Index v, float limit)
 {
-    if (!load_fan(v)) {
+    if (!load_fan(v, true)) {
         m_out.deferred.push_back(v);
         return;
     }
     evaluate_edges(m_fan);
     ++m_out.evaluations;
-    m_mesh.nodes[v].sums = m_fan.sums;  // freshly added up: what updates left of rounding is gone
+    keep_sums(v);
     for (;;) {
         const int j = cheapest();
         float& cost = m_fan.cost[j];
@@ -81,42 +201,64 @@ void TileWorker::visit(Index v, float limit)
 }
 
 /// Gathers the neighbours of v; false when one is outside the zone.
-bool TileWorker::load_fan(Index v)
+bool TileWorker::load_fan(Index v, bool check_zone)
 {
     const Node& node = m_mesh.nodes[v];
     const Ring& ring = m_mesh.rings[v];
-    m_fan.degree = node.degree;
+    const int degree = node.degree, lanes = lanes_for(degree);
+    m_fan.degree = degree;
+    m_fan.lanes = lanes;
     m_fan.side = node.side;
-    for (int j = 0; j < node.degree; ++j) {
+    std::uint8_t sides = node.side;
+    const Node* from[kLanes];
+    for (int j = 0; j < degree; ++j) {
         const Index q = ring.v[std::size_t(j)];
-        if (q == kGhost) {
-            m_fan.dx[j] = m_fan.dy[j] = m_fan.dz[j] = m_fan.real[j] = m_fan.fixed_x[j] = m_fan.fixed_y[j] = 0.0f;
-            for (auto& lane : m_fan.a)
-                lane[j] = 0.0f;
-            for (auto& lane : m_fan.n)
-                lane[j] = 0.0f;
-            continue;
-        }
-        const Node& other = m_mesh.nodes[q];
-        if (!m_zone.contains(other.home))
+        from[j] = q == kGhost ? &kNoNode : &m_mesh.nodes[q];
+        m_fan.corners.real[j] = q == kGhost ? 0.0f : 1.0f;
+        if (check_zone && q != kGhost && !m_zone.contains(from[j]->home))
             return false;
-        m_fan.dx[j] = float(other.p.x - node.p.x) * kPixel;
-        m_fan.dy[j] = float(other.p.y - node.p.y) * kPixel;
-        m_fan.dz[j] = other.z - node.z;
-        m_fan.real[j] = 1.0f;
-        m_fan.fixed_x[j] = other.side & kFixedX ? 1.0f : 0.0f;
-        m_fan.fixed_y[j] = other.side & kFixedY ? 1.0f : 0.0f;
-        m_fan.a[0][j] = other.sums.xx;
-        m_fan.a[1][j] = other.sums.xy;
-        m_fan.a[2][j] = other.sums.yy;
-        m_fan.a[3][j] = other.sums.xz;
-        m_fan.a[4][j] = other.sums.yz;
-        m_fan.a[5][j] = other.sums.zz;
-        m_fan.n[0][j] = other.sums.x;
-        m_fan.n[1][j] = other.sums.y;
-        m_fan.n[2][j] = other.sums.z;
+        sides |= from[j]->side;
     }
+    for (int j = degree; j < lanes; ++j) {
+        from[j] = &kNoNode;
+        m_fan.corners.real[j] = 0.0f;
+    }
+    for (int j = 0; j < lanes; j += 4)
+        load_nodes({ from[j], from[j + 1], from[j + 2], from[j + 3] }, node.p, node.z, j, m_fan);
+    close(m_fan.corners, degree, lanes);
+    if (m_fan.more_channels > 0)
+        load_more_channels(v);
+    m_fan.on_border = sides != kFree;
+    if (m_fan.on_border)
+        for (int j = 0; j < lanes; ++j) {
+            m_fan.fixed_x[j] = from[j]->side & kFixedX ? 1.0f : 0.0f;
+            m_fan.fixed_y[j] = from[j]->side & kFixedY ? 1.0f : 0.0f;
+        }
     return true;
+}
+
+/// The part of load_fan() that guide channels after the first need.
+void TileWorker::load_more_channels(Index v)
+{
+    const ChannelSums none {};
+    for (int c = 0; c < m_fan.more_channels; ++c) {
+        ChannelFan& m = m_fan.more[c];
+        m.sums.value = m_mesh.more_of(v)[c].value;
+        for (int j = 0; j < m_fan.lanes; ++j) {
+            const Index q = j < m_fan.degree ? m_mesh.rings[v].v[std::size_t(j)] : kGhost;
+            const ChannelSums& s = q == kGhost ? none : m_mesh.more_of(q)[c];
+            m.z[j] = q == kGhost ? 0.0f : s.value - m.sums.value;
+            m.a[0][j] = s.xx;
+            m.a[1][j] = s.xy;
+            m.a[2][j] = s.yy;
+            m.a[3][j] = s.xz;
+            m.a[4][j] = s.yz;
+            m.n[0][j] = s.x;
+            m.n[1][j] = s.y;
+        }
+        m.z[m_fan.lanes] = 0.0f;
+        m.z[m_fan.degree] = m.z[0];
+    }
 }
 
 int TileWorker::cheapest() const
@@ -146,11 +288,11 @@ bool TileWorker::load_star(Index t, int j, bool& deferred)
 
     int n = 0;
     for (int k = 1; k < node.degree; ++k)
-        m_star.ring[n++] = ring.v[std::size_t((j + k) % node.degree)];
+        m_star.ring[n++] = ring.v[std::size_t(j + k < node.degree ? j + k : j + k - node.degree)];
     m_star.vl = n - 1;
     const int at = find(other_ring, other.degree, t);
     for (int k = 2; k + 1 < other.degree; ++k) {
-        const Index q = other_ring.v[std::size_t((at + k) % other.degree)];
+        const Index q = other_ring.v[std::size_t(at + k < other.degree ? at + k : at + k - other.degree)];
         if (find(ring, node.degree, q) >= 0)
             return false;  // a third common neighbour
         m_star.ring[n++] = q;
@@ -160,23 +302,28 @@ bool TileWorker::load_star(Index t, int j, bool& deferred)
         if (m_star.ring[k] != kGhost && m_mesh.nodes[m_star.ring[k]].degree <= 3)
             return false;
 
+    clear(m_star.corners, lanes_for(n));
     for (int k = 0; k < n; ++k) {
         const Index q = m_star.ring[k];
-        if (q == kGhost) {
-            m_star.x[k] = m_star.y[k] = m_star.z[k] = m_star.real[k] = 0.0f;
-            m_star.points[k] = {};
-            continue;
-        }
-        const Node& corner = m_mesh.nodes[q];
+        const Node& corner = q == kGhost ? node : m_mesh.nodes[q];
         if (!m_zone.contains(corner.home)) {
             deferred = true;
             return false;
         }
-        m_star.x[k] = float(corner.p.x - node.p.x) * kPixel;
-        m_star.y[k] = float(corner.p.y - node.p.y) * kPixel;
-        m_star.z[k] = corner.z - node.z;
-        m_star.real[k] = 1.0f;
+        m_star.corners.x[k] = float(corner.p.x - node.p.x) * kPixel;
+        m_star.corners.y[k] = float(corner.p.y - node.p.y) * kPixel;
+        m_star.corners.z[k] = corner.z - node.z;
+        m_star.corners.real[k] = q == kGhost ? 0.0f : 1.0f;
         m_star.points[k] = corner.p;
+    }
+    close(m_star.corners, n, lanes_for(n));
+    for (int c = 0; c < m_fan.more_channels; ++c) {
+        float* z = m_star.more_z[c];
+        std::fill(z, z + lanes_for(n) + 1, 0.0f);
+        for (int k = 0; k < n; ++k)
+            if (m_star.ring[k] != kGhost)
+                z[k] = m_mesh.more_of(m_star.ring[k])[c].value - m_mesh.more_of(t)[c].value;
+        z[n] = z[0];
     }
     return true;
 }
@@ -185,27 +332,27 @@ bool TileWorker::load_star(Index t, int j, bool& deferred)
 /// points between it, the midpoint and the ends. Sets the cost there. Stops at the first that is cheap enough.
 bool TileWorker::find_placement(int j, float limit, float& cost, Placement& place) const
 {
-    const float dx = m_fan.dx[j], dy = m_fan.dy[j], x = m_fan.x[j], y = m_fan.y[j];
+    const float dx = m_fan.corners.x[j], dy = m_fan.corners.y[j], x = m_fan.x[j], y = m_fan.y[j];
     const float candidates[6][2] = { { x, y },
-                                     { 0.5f * (x + 0.5f * dx), 0.5f * (y + 0.5f * dy) },
+                                     { 0.5f * x + 0.25f * dx, 0.5f * y + 0.25f * dy },
                                      { 0.5f * dx, 0.5f * dy },
                                      { 0.0f, 0.0f },
                                      { dx, dy },
                                      { 0.25f * x + 0.375f * dx, 0.25f * y + 0.375f * dy } };
-    const bool own_x = m_fan.side & kFixedX, own_y = m_fan.side & kFixedY;
+    const auto on_lattice = [](float v) { return std::nearbyint(v * float(kSubpixels)) * kPixel; };
+    const bool other_x = m_fan.on_border && m_fan.fixed_x[j] > 0.0f;
+    const bool other_y = m_fan.on_border && m_fan.fixed_y[j] > 0.0f;
     float best = kInfinity;
-    for (int c = 0; c < 6; ++c) {
-        const float cx = own_x ? 0.0f : (m_fan.fixed_x[j] > 0.0f ? dx : on_lattice(candidates[c][0]));
-        const float cy = own_y ? 0.0f : (m_fan.fixed_y[j] > 0.0f ? dy : on_lattice(candidates[c][1]));
+    for (int c = 0; c < 6 && !(best <= limit); ++c) {
+        const float cx = m_fan.side & kFixedX ? 0.0f : (other_x ? dx : on_lattice(candidates[c][0]));
+        const float cy = m_fan.side & kFixedY ? 0.0f : (other_y ? dy : on_lattice(candidates[c][1]));
         if (!keeps_shape(cx, cy))
             continue;
-        const float here = c == 0 ? cost : cost_at(m_fan, j, cx, cy);
+        const float here = c == 0 ? cost : edge_cost_at(m_fan, j, cx, cy);
         if (here < best) {
             best = here;
-            place = { cx, cy, m_fan.offset[j] - m_fan.alpha[j] * cx - m_fan.beta[j] * cy };
+            place = { cx, cy };
         }
-        if (best <= limit)
-            break;
     }
     cost = best;
     return best < kInfinity;
@@ -215,16 +362,16 @@ bool TileWorker::find_placement(int j, float limit, float& cost, Placement& plac
 /// above what single precision can lose in the area, so orientation is certain.
 bool TileWorker::keeps_shape(float x, float y) const
 {
+    const Lanes d;
+    const auto vx = hn::Set(d, x), vy = hn::Set(d, y), guard = hn::Set(d, m_guard);
     bool ok = true;
-    for (int i = 0; i < m_star.degree; ++i) {
-        const int next = i + 1 < m_star.degree ? i + 1 : 0;
-        if (m_star.real[i] * m_star.real[next] == 0.0f)
-            continue;
-        const float ex = m_star.x[i] - x, ey = m_star.y[i] - y;
-        const float fx = m_star.x[next] - x, fy = m_star.y[next] - y;
-        const float gx = ex - fx, gy = ey - fy;
-        const float longest = std::max({ ex * ex + ey * ey, fx * fx + fy * fy, gx * gx + gy * gy });
-        ok &= ex * fy - fx * ey >= m_guard * longest;
+    for (int j = 0; j < m_star.degree; j += int(hn::Lanes(d))) {
+        const Vec3 a = corner(m_star.corners, m_star.corners.z, j), b = corner(m_star.corners, m_star.corners.z, j + 1);
+        const auto ex = a.x - vx, ey = a.y - vy, fx = b.x - vx, fy = b.y - vy, gx = a.x - b.x, gy = a.y - b.y;
+        const auto longest = hn::Max(hn::Max(ex * ex + ey * ey, fx * fx + fy * fy), gx * gx + gy * gy);
+        const auto short_of = hn::Lt(ex * fy - fx * ey, guard * longest);
+        const auto triangle = hn::Gt(whole(m_star.corners, m_star.degree, j), hn::Zero(d));
+        ok &= hn::AllFalse(d, hn::And(short_of, triangle));
     }
     return ok;
 }
@@ -239,119 +386,150 @@ void TileWorker::collapse(Index t, int j, const Placement& place, float cost)
     const Point p { s.p.x + std::int32_t(place.x * float(kSubpixels)),
                     s.p.y + std::int32_t(place.y * float(kSubpixels)) };
     float order = std::max({ cost, s.order, other.order });
-    for (int i = 0; i < m_star.degree; ++i)
-        if (m_star.ring[i] != kGhost)
-            order = std::max(order, m_mesh.nodes[m_star.ring[i]].order);
-    record(t, u, s, p, order);
+    for (int i = 0; i < m_star.degree; ++i) {
+        const Index q = m_star.ring[i];
+        if (q == kGhost)
+            continue;
+        order = std::max(order, m_mesh.nodes[q].order);
+        if (m_mesh.keys[q] == kInfinity)
+            m_mesh.keys[q] = 0.0f;  // what was refused there may be possible now
+    }
+    record(t, u, p, order);
 
     s.p = p;
-    s.z += place.z;
+    s.z += m_fan.offset[j] - m_fan.alpha[j] * place.x - m_fan.beta[j] * place.y;
+    for (int c = 0; c < m_fan.more_channels; ++c) {
+        const ChannelFan& m = m_fan.more[c];
+        m_mesh.more_of(t)[c].value += m.offset[j] - m.alpha[j] * place.x - m.beta[j] * place.y;
+    }
     s.order = order;
     s.side |= other.side;
     update_rings(t, u);
-    m_mesh.keys[t] = 0.0f;
+    m_mesh.keys[t] = kFreshKey * cost;
     m_mesh.keys[u] = kInfinity;
-    for (int i = 0; i < m_star.degree; ++i)
-        if (m_star.ring[i] != kGhost && m_mesh.keys[m_star.ring[i]] == kInfinity)
-            m_mesh.keys[m_star.ring[i]] = 0.0f;
 }
 
-void TileWorker::record(Index t, Index u, const Node& s, const Point& s_point, float order)
+void TileWorker::record(Index t, Index u, Point coarse, float order)
 {
     const auto name = [&](Index v) { return v == kGhost ? kGhost : m_mesh.nodes[v].name; };
-    const Node& other = m_mesh.nodes[u];
-    const Projection pt = project(s.p, s_point, m_star.degree, m_star.ring, m_star.points);
-    const Projection pu = project(other.p, s_point, m_star.degree, m_star.ring, m_star.points);
-    const Index s_name = name(t);
-    m_out.records.push_back({ { s_name, name(m_star.ring[m_star.vl]), name(m_star.ring[0]), s.p, other.p },
-                              name(u),
-                              { s_name, name(pt.a), name(pt.b), name(pu.a), name(pu.b), pt.wa, pt.wb, pu.wa, pu.wb },
-                              s.z,
-                              other.z,
-                              order });
+    const Node &node = m_mesh.nodes[t], &other = m_mesh.nodes[u];
+    const Projection pt = project(node.p, coarse, m_star.degree, m_star.ring, m_star.points);
+    const Projection pu = project(other.p, coarse, m_star.degree, m_star.ring, m_star.points);
+    m_out.records.push_back(
+        { { node.name, name(m_star.ring[m_star.vl]), name(m_star.ring[0]), node.p, other.p },
+          other.name,
+          { node.name, name(pt.a), name(pt.b), name(pu.a), name(pu.b), pt.wa, pt.wb, pu.wa, pu.wb },
+          node.z,
+          other.z,
+          order });
+    for (int c = 0; c < m_fan.more_channels; ++c)
+        m_out.more.push_back({ m_mesh.more_of(t)[c].value, m_mesh.more_of(u)[c].value });
 }
 
-/// Replaces the old triangles' contributions to every fan by the new ones'. A normal does not depend
-/// on the origin, so the three vertices of a triangle share its contribution.
+/// New minus old products of the normals around a star, triangle by triangle: xx xy yy xz yz x y | zz z.
+/// A normal does not depend on the origin, so the three vertices of a triangle share its contribution.
+struct Changes {
+    alignas(64) float of[9][kLanes];
+};
+
+/// Fills rows 0..6 of `changes` for one channel (and 7, 8 for the first) and the new normals. `z` are the corners'
+/// intensities, `u` the far end of the edge and `s` the new place, all relative to t.
+HWY_INLINE void star_changes(const Star& star, const float* z, const float (&u)[3], const float (&s)[3], bool areas,
+                             Changes& changes, Normals& after)
+{
+    const Lanes d;
+    const Vec3 to { hn::Set(d, s[0]), hn::Set(d, s[1]), hn::Set(d, s[2]) };
+    const auto ux = hn::Set(d, u[0]), uy = hn::Set(d, u[1]), uz = hn::Set(d, u[2]);
+    const auto last_of_t = hn::Set(d, float(star.vl));
+    for (int k = 0; k < lanes_for(star.degree); k += int(hn::Lanes(d))) {
+        // The old triangles have their apex in t up to vl, in u from there on.
+        const auto of_u = hn::IfThenZeroElse(hn::Lt(hn::Iota(d, float(k)), last_of_t), hn::Set(d, 1.0f));
+        const Vec3 apex { of_u * ux, of_u * uy, of_u * uz };
+        const Vec3 a = corner(star.corners, z, k), b = corner(star.corners, z, k + 1);
+        const auto mask = whole(star.corners, star.degree, k);
+        const Vec3 o = cross(a - apex, b - apex, mask), p = cross(a - to, b - to, mask);
+        store(p, after, k);
+        hn::Store(p.x * p.x - o.x * o.x, d, changes.of[0] + k);
+        hn::Store(p.x * p.y - o.x * o.y, d, changes.of[1] + k);
+        hn::Store(p.y * p.y - o.y * o.y, d, changes.of[2] + k);
+        hn::Store(p.x * p.z - o.x * o.z, d, changes.of[3] + k);
+        hn::Store(p.y * p.z - o.y * o.z, d, changes.of[4] + k);
+        hn::Store(p.x - o.x, d, changes.of[5] + k);
+        hn::Store(p.y - o.y, d, changes.of[6] + k);
+        if (areas) {
+            hn::Store(p.z * p.z - o.z * o.z, d, changes.of[7] + k);
+            hn::Store(p.z - o.z, d, changes.of[8] + k);
+        }
+    }
+}
+
+/// Adds `d` (rows as in Changes) to a fan's sums.
+HWY_INLINE void add(FanSums& s, const float* d)
+{
+    s.xx += d[0];
+    s.xy += d[1];
+    s.yy += d[2];
+    s.xz += d[3];
+    s.yz += d[4];
+    s.x += d[5];
+    s.y += d[6];
+    s.zz += d[7];
+    s.z += d[8];
+}
+
+HWY_INLINE void add(ChannelSums& s, const float* d)
+{
+    float* sums = &s.xx;
+    for (int k = 0; k < 7; ++k)
+        sums[k] += d[k];
+}
+
+/// Applies the changes to every vertex of the star, and takes away the two triangles that vanish with edge j.
+/// `sums_of(q)` gives the sums of vertex q.
+template<class SumsOf>
+HWY_INLINE void apply(const Star& star, const Changes& changes, const EdgeFan& fan, const Normals& old, int j,
+                      SumsOf&& sums_of)
+{
+    for (int i = 0; i < star.degree; ++i) {
+        if (star.ring[i] == kGhost)
+            continue;
+        const int previous = i > 0 ? i - 1 : star.degree - 1;
+        float d[9];
+        for (int k = 0; k < 9; ++k)
+            d[k] = changes.of[k][i] + changes.of[k][previous];
+        add(sums_of(star.ring[i]), d);
+    }
+    const auto drop = [&](Index q, int lane) {
+        const float x = old.x[lane], y = old.y[lane], z = fan.normals.z[lane];
+        const float gone[9] = { -x * x, -x * y, -y * y, -x * z, -y * z, -x, -y, -z * z, -z };
+        if (q != kGhost)
+            add(sums_of(q), gone);
+    };
+    drop(star.ring[0], j);
+    drop(star.ring[star.vl], j > 0 ? j - 1 : fan.degree - 1);
+}
+
+/// Replaces the old triangles' contributions to every fan by the new ones'.
 void TileWorker::update_sums(Index t, int j, const Placement& place)
 {
-    const int n = m_star.degree;
-    const float ux = m_fan.dx[j], uy = m_fan.dy[j], uz = m_fan.dz[j];
-    alignas(64) float old_x[kLanes], old_y[kLanes], old_z[kLanes], whole[kLanes];  // the next corner of each triangle
-    Normals before, after;
-    // Triangles i and i + 1 of the old surface have their apex in t up to vl, in u from there on.
-    alignas(64) float apex[kLanes];
-    for (int i = 0; i < kLanes; ++i)
-        apex[i] = i < m_star.vl ? 0.0f : 1.0f;
-    for (int i = 0; i < n; ++i) {
-        const int next = i + 1 < n ? i + 1 : 0;
-        old_x[i] = m_star.x[next];
-        old_y[i] = m_star.y[next];
-        old_z[i] = m_star.z[next];
-        whole[i] = m_star.real[next] * m_star.real[i];
-    }
-    for (int i = 0; i < n; ++i) {
-        const float mask = whole[i];
-        const float ax = apex[i] * ux, ay = apex[i] * uy, az = apex[i] * uz;
-        const float ex = m_star.x[i] - ax, ey = m_star.y[i] - ay, ez = m_star.z[i] - az;
-        const float fx = old_x[i] - ax, fy = old_y[i] - ay, fz = old_z[i] - az;
-        before.x[i] = mask * (ey * fz - ez * fy);
-        before.y[i] = mask * (ez * fx - ex * fz);
-        before.z[i] = mask * (ex * fy - ey * fx);
-        const float gx = m_star.x[i] - place.x, gy = m_star.y[i] - place.y, gz = m_star.z[i] - place.z;
-        const float hx = old_x[i] - place.x, hy = old_y[i] - place.y, hz = old_z[i] - place.z;
-        after.x[i] = mask * (gy * hz - gz * hy);
-        after.y[i] = mask * (gz * hx - gx * hz);
-        after.z[i] = mask * (gx * hy - gy * hx);
-    }
-    for (int i = n; i < kLanes; ++i)
-        before.x[i] = before.y[i] = before.z[i] = after.x[i] = after.y[i] = after.z[i] = 0.0f;
+    const float ux = m_fan.corners.x[j], uy = m_fan.corners.y[j];
+    const int lanes = lanes_for(m_star.degree);
+    Changes changes;
+    Normals after;
+    const float z = m_fan.offset[j] - m_fan.alpha[j] * place.x - m_fan.beta[j] * place.y;
+    star_changes(m_star, m_star.corners.z, { ux, uy, m_fan.corners.z[j] }, { place.x, place.y, z }, true, changes, after);
+    apply(m_star, changes, m_fan, m_fan.normals, j, [&](Index q) -> FanSums& { return m_mesh.nodes[q].sums; });
+    m_mesh.nodes[t].sums = add_up(after, lanes);
 
-    alignas(64) float delta[9][kLanes];
-    for (int i = 0; i < n; ++i) {
-        delta[0][i] = after.x[i] * after.x[i] - before.x[i] * before.x[i];
-        delta[1][i] = after.x[i] * after.y[i] - before.x[i] * before.y[i];
-        delta[2][i] = after.y[i] * after.y[i] - before.y[i] * before.y[i];
-        delta[3][i] = after.x[i] * after.z[i] - before.x[i] * before.z[i];
-        delta[4][i] = after.y[i] * after.z[i] - before.y[i] * before.z[i];
-        delta[5][i] = after.z[i] * after.z[i] - before.z[i] * before.z[i];
-        delta[6][i] = after.x[i] - before.x[i];
-        delta[7][i] = after.y[i] - before.y[i];
-        delta[8][i] = after.z[i] - before.z[i];
+    for (int c = 0; c < m_fan.more_channels; ++c) {
+        const ChannelFan& m = m_fan.more[c];
+        const float zc = m.offset[j] - m.alpha[j] * place.x - m.beta[j] * place.y;
+        star_changes(m_star, m_star.more_z[c], { ux, uy, m.z[j] }, { place.x, place.y, zc }, false, changes, after);
+        apply(m_star, changes, m_fan, m.normals, j, [&](Index q) -> ChannelSums& { return m_mesh.more_of(q)[c]; });
+        const FanSums s = add_up(after, lanes);
+        ChannelSums& own = m_mesh.more_of(t)[c];
+        own = { s.xx, s.xy, s.yy, s.xz, s.yz, s.x, s.y, own.value };
     }
-    const auto add = [](FanSums& sums, const float (*d)[kLanes], int i, int k) {
-        sums.xx += d[0][i] + d[0][k];
-        sums.xy += d[1][i] + d[1][k];
-        sums.yy += d[2][i] + d[2][k];
-        sums.xz += d[3][i] + d[3][k];
-        sums.yz += d[4][i] + d[4][k];
-        sums.zz += d[5][i] + d[5][k];
-        sums.x += d[6][i] + d[6][k];
-        sums.y += d[7][i] + d[7][k];
-        sums.z += d[8][i] + d[8][k];
-    };
-    for (int i = 0; i < n; ++i)
-        if (m_star.ring[i] != kGhost)
-            add(m_mesh.nodes[m_star.ring[i]].sums, delta, i, i > 0 ? i - 1 : n - 1);
-    // The two triangles that vanish with the edge.
-    const auto drop = [&](Index q, int lane) {
-        if (q == kGhost)
-            return;
-        FanSums& sums = m_mesh.nodes[q].sums;
-        const float x = m_fan.nx[lane], y = m_fan.ny[lane], z = m_fan.nz[lane];
-        sums.xx -= x * x;
-        sums.xy -= x * y;
-        sums.yy -= y * y;
-        sums.xz -= x * z;
-        sums.yz -= y * z;
-        sums.zz -= z * z;
-        sums.x -= x;
-        sums.y -= y;
-        sums.z -= z;
-    };
-    drop(m_star.ring[0], j);
-    drop(m_star.ring[m_star.vl], j > 0 ? j - 1 : m_fan.degree - 1);
-    m_mesh.nodes[t].sums = add_up(n, after);
 }
 
 void TileWorker::update_rings(Index t, Index u)
@@ -374,4 +552,55 @@ void TileWorker::update_rings(Index t, Index u)
     m_mesh.nodes[u].degree = 0;
 }
 
+void collapse_listed(WorkingMesh& mesh, const std::vector<Index>& vertices, const TileJob& job, TileOutput& output)
+{
+    TileWorker(mesh, job, output).run(vertices, job.limit);
+}
+
+void collapse_tile(WorkingMesh& mesh, const Tile& tile, const TileJob& job, TileOutput& output)
+{
+    TileWorker worker(mesh, job, output);
+    std::vector<Index> candidates;
+    for (float share : kSteps) {
+        const float limit = job.limit * share;
+        collect(mesh, tile, limit, candidates);
+        worker.run(candidates, limit);
+    }
+}
+
+void add_up_fans(WorkingMesh& mesh, Index first, Index last)
+{
+    TileOutput none;
+    TileWorker worker(mesh, {}, none);
+    for (Index v = first; v < last; ++v)
+        worker.add_up_fan(v);
+}
+
+}  // namespace HWY_NAMESPACE
 }  // namespace pimg
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace pimg {
+
+HWY_EXPORT(collapse_tile);
+HWY_EXPORT(collapse_listed);
+HWY_EXPORT(add_up_fans);
+
+void collapse_tile(WorkingMesh& mesh, const Tile& tile, const TileJob& job, TileOutput& output)
+{
+    HWY_DYNAMIC_DISPATCH(collapse_tile)(mesh, tile, job, output);
+}
+
+void collapse_listed(WorkingMesh& mesh, const std::vector<Index>& vertices, const TileJob& job, TileOutput& output)
+{
+    HWY_DYNAMIC_DISPATCH(collapse_listed)(mesh, vertices, job, output);
+}
+
+void add_up_fans(WorkingMesh& mesh, Index first, Index last)
+{
+    HWY_DYNAMIC_DISPATCH(add_up_fans)(mesh, first, last);
+}
+
+}  // namespace pimg
+#endif

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Collapses the edges of one tile up to a cost limit, touching nothing outside the tile's zone.
+// Collapses the edges of one tile up to a cost limit, touching nothing outside the tile's zone. Compiled once
+// per instruction set and chosen at run time; all give the same bits.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "collapse_record.h"
@@ -9,61 +11,36 @@
 
 namespace pimg {
 
-/// What one tile's work leaves behind.
+/// What a tile's work leaves behind.
 struct TileOutput {
     std::vector<CollapseRecord> records;
+    std::vector<Detail> more;     ///< see CollapseSequence
     std::vector<Index> deferred;  ///< vertices whose neighbourhood reaches beyond the zone
     std::size_t evaluations = 0, refused = 0;
 
     void clear()
     {
         records.clear();
+        more.clear();
         deferred.clear();
         evaluations = refused = 0;
     }
 };
 
-class TileWorker {
-public:
-    TileWorker(WorkingMesh& mesh, Zone zone, float guard, TileOutput& output)
-        : m_mesh(mesh), m_zone(zone), m_guard(guard), m_out(output)
-    {
-    }
-
-    /// Visits the vertices whose key is at most `limit`, of a tile or of a list.
-    void run(const Tile& tile, float limit);
-    void run(const std::vector<Index>& vertices, float limit);
-
-private:
-    /// The star s will have: ring of t from vr to vl, then that of u back to vr.
-    struct Star {
-        int degree, vl;  ///< place of vl; vr is at 0
-        alignas(64) float x[kLanes], y[kLanes], z[kLanes], real[kLanes];  ///< relative to t, pixels
-        Index ring[kLanes];
-        Point points[kLanes];
-    };
-    struct Placement {
-        float x, y, z;
-    };
-
-    void visit(Index v, float limit);
-    bool load_fan(Index v);
-    int cheapest() const;
-    bool load_star(Index t, int j, bool& deferred);
-    bool find_placement(int j, float limit, float& cost, Placement& place) const;
-    bool keeps_shape(float x, float y) const;
-    void collapse(Index t, int j, const Placement& place, float cost);
-    void record(Index t, Index u, const Node& s, const Point& s_point, float order);
-    void update_sums(Index t, int j, const Placement& place);
-    void update_rings(Index t, Index u);
-
-    WorkingMesh& m_mesh;
-    Zone m_zone;
-    float m_guard;
-    TileOutput& m_out;
-    EdgeFan m_fan;
-    Star m_star;
-    std::vector<Index> m_candidates;
+/// How far to go.
+struct TileJob {
+    Zone zone;
+    float limit;  ///< cost up to which edges are collapsed
+    float guard;  ///< least twice the area of a triangle over its longest edge squared
 };
+
+/// Visits the vertices of a tile whose key is at most the limit, approaching it in a few steps.
+void collapse_tile(WorkingMesh& mesh, const Tile& tile, const TileJob& job, TileOutput& output);
+
+/// The same for a list of vertices, in one step.
+void collapse_listed(WorkingMesh& mesh, const std::vector<Index>& vertices, const TileJob& job, TileOutput& output);
+
+/// Fills Node::sums of vertices [first, last).
+void add_up_fans(WorkingMesh& mesh, Index first, Index last);
 
 }  // namespace pimg

@@ -20,26 +20,33 @@ std::uint32_t morton_part(std::uint64_t code)
     return part;
 }
 
-/// Whether quad (x, y)..(x + 1, y + 1) is cut from upper left to lower right.
-bool falling_diagonal(const float* samples, int width, int x, int y)
+/// Whether quad (x, y)..(x + 1, y + 1) is cut from upper left to lower right: along the smaller jump.
+bool falling_diagonal(const Guide& guide, int x, int y)
 {
-    const float* p = samples + std::size_t(y) * std::size_t(width) + std::size_t(x);
-    return std::fabs(p[0] - p[width + 1]) <= std::fabs(p[1] - p[width]);
+    float falling = 0.0f, rising = 0.0f;
+    for (const GuideChannel& c : guide.channels) {
+        const float* p = c.samples + std::size_t(y) * std::size_t(guide.width) + std::size_t(x);
+        falling += c.weight * (p[0] - p[guide.width + 1]) * (p[0] - p[guide.width + 1]);
+        rising += c.weight * (p[1] - p[guide.width]) * (p[1] - p[guide.width]);
+    }
+    return falling <= rising;
 }
 
 }  // namespace
 
-WorkingMesh::WorkingMesh(const float* samples, int width, int height)
+WorkingMesh::WorkingMesh(const Guide& guide) : more_channels(int(guide.channels.size()) - 1)
 {
-    const std::size_t n = std::size_t(width) * std::size_t(height);
+    const std::size_t n = std::size_t(guide.width) * std::size_t(guide.height);
     nodes.resize(n);
     rings.resize(n);
     keys.assign(n, 0.0f);
+    more.resize(n * std::size_t(more_channels));
+    for (const GuideChannel& c : guide.channels)
+        weights.push_back(c.weight);
     m_alive = Index(n);
     std::vector<Index> number_of(n);
-    number_vertices(width, height, number_of);
-    build_rings(samples, width, height, number_of);
-    add_up_fans();
+    number_vertices(guide.width, guide.height, number_of);
+    build_rings(guide, number_of);
 }
 
 void WorkingMesh::number_vertices(int width, int height, std::vector<Index>& number_of)
@@ -63,8 +70,9 @@ void WorkingMesh::number_vertices(int width, int height, std::vector<Index>& num
     }
 }
 
-void WorkingMesh::build_rings(const float* samples, int width, int height, const std::vector<Index>& number_of)
+void WorkingMesh::build_rings(const Guide& guide, const std::vector<Index>& number_of)
 {
+    const int width = guide.width, height = guide.height;
     // The eight pixels around in ring order, the odd ones being diagonal.
     constexpr int kStepX[8] = { 1, 1, 0, -1, -1, -1, 0, 1 };
     constexpr int kStepY[8] = { 0, 1, 1, 1, 0, -1, -1, -1 };
@@ -84,7 +92,7 @@ void WorkingMesh::build_rings(const float* samples, int width, int height, const
                 }
                 const bool diagonal = k & 1;
                 if (diagonal
-                    && falling_diagonal(samples, width, std::min(x, qx), std::min(y, qy)) != (kStepX[k] == kStepY[k]))
+                    && falling_diagonal(guide, std::min(x, qx), std::min(y, qy)) != (kStepX[k] == kStepY[k]))
                     continue;
                 ring.v[std::size_t(degree++)] = number_of[std::size_t(qy) * std::size_t(width) + std::size_t(qx)];
             }
@@ -92,42 +100,26 @@ void WorkingMesh::build_rings(const float* samples, int width, int height, const
             node.side = std::uint8_t((x == 0 || x == width - 1 ? kFixedX : kFree)
                                      | (y == 0 || y == height - 1 ? kFixedY : kFree));
             node.p = { x * kSubpixels, y * kSubpixels };
-            node.z = samples[pixel];
+            node.z = guide.channels[0].samples[pixel];
+            for (int c = 0; c < more_channels; ++c)
+                more_of(number_of[pixel])[c].value = guide.channels[std::size_t(c) + 1].samples[pixel];
             node.name = Index(pixel);
             node.order = 0.0f;
             node.home = { std::uint16_t(x / kBlock), std::uint16_t(y / kBlock) };
         }
 }
 
-void WorkingMesh::add_up_fans()
-{
-    alignas(64) float dx[kLanes] = {}, dy[kLanes] = {}, dz[kLanes] = {}, real[kLanes] = {};
-    Normals normals;
-    for (Index v = 0; v < Index(nodes.size()); ++v) {
-        Node& node = nodes[v];
-        for (int j = 0; j < node.degree; ++j) {
-            const Index q = rings[v].v[std::size_t(j)];
-            real[j] = q == kGhost ? 0.0f : 1.0f;
-            const Node& other = q == kGhost ? node : nodes[q];
-            dx[j] = float(other.p.x - node.p.x) / float(kSubpixels);
-            dy[j] = float(other.p.y - node.p.y) / float(kSubpixels);
-            dz[j] = other.z - node.z;
-        }
-        fan_normals(node.degree, dx, dy, dz, real, normals);
-        node.sums = add_up(node.degree, normals);
-    }
-}
-
 Zone WorkingMesh::zone(const Tile& tile) const
 {
     const std::uint32_t n = m_blocks_per_tile, half = n / 2;
-    const std::uint32_t x0 = tile.x * n, y0 = tile.y * n;
-    return { x0 < half ? 0 : x0 - half, y0 < half ? 0 : y0 - half, x0 + n + half, y0 + n + half };
+    // At the left and upper side the difference wraps round, and so it does in contains().
+    return { tile.x * n - half, tile.y * n - half, n + 2 * half, n + 2 * half };
 }
 
 std::size_t WorkingMesh::bytes() const
 {
-    return nodes.capacity() * sizeof(Node) + rings.capacity() * sizeof(Ring) + keys.capacity() * sizeof(float);
+    return nodes.capacity() * sizeof(Node) + rings.capacity() * sizeof(Ring) + keys.capacity() * sizeof(float)
+           + more.capacity() * sizeof(ChannelSums);
 }
 
 void WorkingMesh::compact_if_sparse()
@@ -144,6 +136,7 @@ void WorkingMesh::compact_if_sparse()
                 nodes[next] = nodes[v];
                 rings[next] = rings[v];
                 keys[next] = keys[v];
+                std::copy(more_of(v), more_of(v) + more_channels, more_of(next));
                 ++next;
             }
         tile.first = first;
@@ -152,9 +145,11 @@ void WorkingMesh::compact_if_sparse()
     nodes.resize(next);
     rings.resize(next);
     keys.resize(next);
+    more.resize(std::size_t(next) * std::size_t(more_channels));
     nodes.shrink_to_fit();
     rings.shrink_to_fit();
     keys.shrink_to_fit();
+    more.shrink_to_fit();
     for (Index v = 0; v < next; ++v)
         for (int j = 0; j < nodes[v].degree; ++j) {
             Index& q = rings[v].v[std::size_t(j)];

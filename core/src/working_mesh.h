@@ -40,8 +40,8 @@ struct Tile {
 /// Rectangle of blocks a tile may touch: itself and half of each tile around it. Tiles of one
 /// of the four colours never share a block, so they can be worked on at once.
 struct Zone {
-    std::uint32_t x0, y0, x1, y1;  // half open
-    bool contains(Home h) const { return h.x >= x0 && h.x < x1 && h.y >= y0 && h.y < y1; }
+    std::uint32_t x0, y0, width, height;
+    bool contains(Home h) const { return h.x - x0 < width && h.y - y0 < height; }
 };
 
 class WorkingMesh {
@@ -53,9 +53,15 @@ public:
     std::vector<Ring> rings;
     std::vector<float> keys;  ///< cost at or below which a vertex is worth a look; infinite: not before its neighbourhood changes
     std::vector<Tile> tiles;
+    int more_channels = 0;          ///< guide channels besides the first
+    std::vector<ChannelSums> more;  ///< of vertex v: [v * more_channels, (v + 1) * more_channels)
+    std::vector<float> weights;     ///< of all channels
 
-    /// One vertex per mesh pixel; each quad is cut along the diagonal with the smaller jump.
-    WorkingMesh(const float* samples, int width, int height);
+    /// One vertex per mesh pixel; each quad is cut along the diagonal with the smaller jump. Sums are left to
+    /// add_up_fans().
+    explicit WorkingMesh(const Guide& guide);
+
+    ChannelSums* more_of(Index v) { return more.data() + std::size_t(v) * std::size_t(more_channels); }
 
     Index alive() const { return m_alive; }
     void add_dead(Index count) { m_alive -= count; }
@@ -73,8 +79,7 @@ public:
 
 private:
     void number_vertices(int width, int height, std::vector<Index>& number_of);
-    void build_rings(const float* samples, int width, int height, const std::vector<Index>& number_of);
-    void add_up_fans();
+    void build_rings(const Guide& guide, const std::vector<Index>& number_of);
     void merge_tiles();
 
     Index m_alive = 0;

@@ -11,12 +11,22 @@
 
 namespace pimg {
 
-/// The channel that decides the geometry: one finite sample per pixel, row-major. One unit is
-/// about one step of an 8-bit picture: |samples| should be of the order of 255 so that
-/// noise and features are told apart on the right scale.
+/// Most channels that may decide the geometry together.
+constexpr int kMaxGuideChannels = 16;
+
+/// One of the channels that decide the geometry: finite samples, one per pixel, row-major. One unit is about one
+/// step of an 8-bit picture: |samples| should be of the order of 255 so that noise and features are told apart
+/// on the right scale.
+struct GuideChannel {
+    const float* samples = nullptr;
+    float weight = 1.0f;  ///< of its volume error in the cost, > 0
+};
+
+/// What decides the geometry. With several channels each keeps its own volume, so its own intensity follows from the
+/// position, and the one position they share minimises the weighted sum of their volume errors.
 struct Guide {
     int width = 0, height = 0;
-    const float* samples = nullptr;
+    std::vector<GuideChannel> channels;
 };
 
 struct SimplifyOptions {
@@ -33,10 +43,10 @@ struct SimplifyStats {
     std::size_t peak_bytes = 0;   ///< working memory of the engine at its largest
 };
 
-/// Simplifies the height field of `guide`. `bands` receives the guide's own bands, whose coarse
-/// values preserve the volume under the surface at every level: the mean intensity of every M_i is the picture's.
+/// Simplifies the height field of `guide`. `bands` receives the guide channels' own bands, whose coarse values preserve
+/// the volume under the surface at every level: the mean intensity of every M_i is the picture's.
 /// Fails on an empty or oversized guide, or when `progress` asked to stop.
-Status simplify(const Guide& guide, const SimplifyOptions& options, Hierarchy& hierarchy, Bands& bands,
+Status simplify(const Guide& guide, const SimplifyOptions& options, Hierarchy& hierarchy, std::vector<Bands>& bands,
                 SimplifyStats* stats = nullptr);
 
 }  // namespace pimg

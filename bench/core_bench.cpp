@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The engine, one thread: building, analysing, sweeping. Items are vertices or splits.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <map>
+
+#include <pimg/bands.h>
+#include <pimg/simplify.h>
+
+#include "pictures.h"
+
+namespace {
+
+struct Built {
+    pimg::Hierarchy hierarchy;
+    std::vector<pimg::Bands> bands;
+    pimg::SimplifyStats stats;
+};
+
+pimg::Status simplify(int size, Built& built)
+{
+    const pimg::Guide guide { size, size, { { bench::guide(size).data() } } };
+    return pimg::simplify(guide, {}, built.hierarchy, built.bands, &built.stats);
+}
+
+const Built& built(int size)
+{
+    static std::map<int, Built> all;
+    Built& b = all[size];
+    if (b.hierarchy.empty())
+        simplify(size, b);
+    return b;
+}
+
+void build(benchmark::State& state)
+{
+    const int size = int(state.range(0));
+    bench::guide(size);
+    Built b;
+    for (auto _ : state) {
+        const pimg::Status status = simplify(size, b);
+        if (!status) {
+            state.SkipWithError(status.error().c_str());
+            return;
+        }
+    }
+    const double pixels = double(size) * size;
+    state.SetItemsProcessed(state.iterations() * std::int64_t(size) * size);
+    state.counters["bytes_per_pixel"] = double(b.stats.peak_bytes) / pixels;
+    state.counters["stored_per_pixel"] = double(b.hierarchy.memory()) / pixels;
+}
+BENCHMARK(build)->Arg(512)->Arg(1024)->Arg(2048)->Unit(benchmark::kMillisecond);
+
+void analyse(benchmark::State& state)
+{
+    const int size = int(state.range(0));
+    const Built& b = built(size);
+    std::vector<pimg::Bands> bands;
+    for (auto _ : state) {
+        const pimg::Status status = pimg::analyse(b.hierarchy, { bench::guide(size).data() }, bands);
+        if (!status) {
+            state.SkipWithError(status.error().c_str());
+            return;
+        }
+    }
+    state.SetItemsProcessed(state.iterations() * b.hierarchy.levels());
+}
+BENCHMARK(analyse)->Arg(512)->Arg(2048)->Unit(benchmark::kMillisecond);
+
+/// The sweep with a gain that depends on every detail, as hdr_compress has.
+void sweep(benchmark::State& state)
+{
+    const Built& b = built(int(state.range(0)));
+    std::vector<float> values(b.hierarchy.vertices());
+    for (auto _ : state) {
+        pimg::sweep(b.hierarchy, b.bands, values.data(), b.hierarchy.levels(), [](pimg::Level, pimg::Detail d) {
+            const float gain = std::fabs(d.t) + std::fabs(d.u) > 8.0f ? 0.5f : 0.9f;
+            return pimg::Detail { gain * d.t, gain * d.u };
+        });
+        benchmark::ClobberMemory();
+    }
+    state.SetItemsProcessed(state.iterations() * b.hierarchy.levels());
+}
+BENCHMARK(sweep)->Arg(512)->Arg(1024)->Arg(2048)->Unit(benchmark::kMillisecond);
+
+}  // namespace

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a user waits for, one thread: building a progressive image once, then each new setting.
+#include <benchmark/benchmark.h>
+
+#include <pimg/imagebufalgo.h>
+
+#include "pictures.h"
+
+namespace {
+
+void build_image(benchmark::State& state)
+{
+    const OIIO::ImageBuf& src = bench::picture(int(state.range(0)));
+    for (auto _ : state) {
+        pimg::ProgressiveImage image;
+        if (!image.build(src, {}, 1)) {
+            state.SkipWithError(image.error().c_str());
+            return;
+        }
+    }
+    state.SetItemsProcessed(state.iterations() * std::int64_t(src.spec().image_pixels()));
+}
+BENCHMARK(build_image)->Arg(512)->Arg(1024)->Unit(benchmark::kMillisecond);
+
+void retune_hdr_compress(benchmark::State& state)
+{
+    const OIIO::ImageBuf& src = bench::picture(int(state.range(0)));
+    pimg::ProgressiveImage image;
+    if (!image.build(src, {}, 1)) {
+        state.SkipWithError(image.error().c_str());
+        return;
+    }
+    OIIO::ImageBuf dst;
+    pimg::HdrCompressOptions options;
+    for (auto _ : state) {
+        options.beta = options.beta == 1.0f ? 2.0f : 1.0f;
+        if (!pimg::ImageBufAlgo::hdr_compress(dst, image, options, {}, 1)) {
+            state.SkipWithError(dst.geterror().c_str());
+            return;
+        }
+    }
+    state.SetItemsProcessed(state.iterations() * std::int64_t(src.spec().image_pixels()));
+}
+BENCHMARK(retune_hdr_compress)->Arg(512)->Arg(1024)->Unit(benchmark::kMillisecond);
+
+}  // namespace

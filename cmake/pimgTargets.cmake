@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# What every target of ours has in common, said once.
+include_guard(GLOBAL)
+include(GNUInstallDirs)
+
+# pimg_target_defaults(<target>): language level, warnings, visibility, floating point.
+function(pimg_target_defaults target)
+    target_compile_features(${target} PUBLIC cxx_std_17)
+    set_target_properties(${target} PROPERTIES
+        CXX_EXTENSIONS OFF
+        CXX_VISIBILITY_PRESET hidden
+        VISIBILITY_INLINES_HIDDEN ON
+        POSITION_INDEPENDENT_CODE ON)
+    if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+        # No contraction into fused multiply-adds: the same picture gives the same bits on every machine.
+        target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wconversion -ffp-contract=off)
+        if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+            # GCC 12 sees uninitialised strings in the alternatives a std::variant does not hold.
+            target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)
+        endif()
+        if(PIMG_WERROR)
+            target_compile_options(${target} PRIVATE -Werror)
+        endif()
+    endif()
+endfunction()
+
+# pimg_add_library(<name> HEADERS ... SOURCES ...): the static library pimg_<name>, used and exported as pimg::<name>,
+# whose public headers are in include/pimg beside the caller or, when generated, in its build folder.
+function(pimg_add_library name)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES")
+    set(target pimg_${name})
+    add_library(${target} STATIC ${arg_SOURCES})
+    add_library(pimg::${name} ALIAS ${target})
+    set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+    pimg_target_defaults(${target})
+    target_sources(${target} PUBLIC FILE_SET HEADERS
+        BASE_DIRS include ${CMAKE_CURRENT_BINARY_DIR}/include
+        FILES ${arg_HEADERS})
+    install(TARGETS ${target} EXPORT pimg_${name}
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+    install(EXPORT pimg_${name} NAMESPACE pimg:: FILE pimg_${name}.cmake
+        DESTINATION ${PIMG_INSTALL_CMAKEDIR})
+endfunction()

@@ -1,0 +1,123 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Set-up, build, tests and demo on Debian 12: ./dev.sh help
+set -euo pipefail
+cd "$(dirname "$0")"
+
+readonly build=build/release
+readonly jobs=2
+
+# Everything comes from Debian 12. openimageio-tools brings oiiotool, without which CMake's OpenImageIO package fails.
+readonly packages=(
+    g++ cmake ninja-build pkg-config
+    libopenimageio-dev openimageio-tools libopencolorio-dev libimath-dev libopenexr-dev libopencv-dev
+    libhwy-dev libzstd-dev libboost-dev
+    python3-dev python3-numpy python3-openimageio pybind11-dev
+    libgtest-dev libbenchmark-dev libcgal-dev
+)
+
+usage() {
+    cat <<'END'
+usage: ./dev.sh COMMAND
+
+  setup   install the Debian packages that are missing (needs root or sudo; nothing to do the second time)
+  build   setup, then configure and build everything in build/release
+  test    setup, build with warnings as errors, run every test
+  demo    setup, build, tone-map a real HDR photograph and more, in build/demo
+  bench   setup, build, run the benchmarks; arguments go to pimg_bench, $PIMG_BENCH_PICTURE names a picture
+  clean   remove build/
+  help    this text
+END
+}
+
+say() { printf '\n== %s\n' "$*"; }
+
+missing_packages() {
+    local package
+    for package in "${packages[@]}"; do
+        [[ $(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null) == installed ]] || echo "$package"
+    done
+}
+
+setup() {
+    if ! command -v dpkg-query >/dev/null; then
+        echo "dev.sh: not a Debian system; expecting its packages' equivalents: ${packages[*]}" >&2
+        return
+    fi
+    local missing
+    mapfile -t missing < <(missing_packages)
+    if [[ ${#missing[@]} -eq 0 ]]; then
+        return
+    fi
+    say "installing ${missing[*]}"
+    local as_root=()
+    if [[ $(id -u) -ne 0 ]]; then
+        as_root=(sudo)
+    fi
+    "${as_root[@]}" apt-get update -q
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}"
+}
+
+configure() { # cmake options...
+    local launcher=()
+    if command -v ccache >/dev/null; then
+        launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+    fi
+    cmake --preset release "${launcher[@]}" "$@" >"$build.configure.log" || {
+        cat "$build.configure.log"
+        return 1
+    }
+}
+
+compile() { # targets...
+    cmake --build "$build" -j "$jobs" --target "$@"
+}
+
+run_build() {
+    setup
+    say "building in $build"
+    mkdir -p build
+    configure -DPIMG_BUILD_BENCH=OFF "$@"
+    compile all
+}
+
+run_test() {
+    run_build -DPIMG_WERROR=ON
+    say "testing"
+    ctest --test-dir "$build" --output-on-failure -j "$jobs"
+}
+
+run_demo() {
+    setup
+    say "building pimgtool in $build"
+    mkdir -p build
+    configure
+    compile pimgtool
+    tools/demo.sh "$build/tools/pimgtool" build/demo
+}
+
+run_bench() {
+    setup
+    say "building the benchmarks in $build"
+    mkdir -p build
+    configure -DPIMG_BUILD_BENCH=ON
+    compile pimg_bench
+    say "measuring, one thread"
+    "$build/bench/pimg_bench" "$@"
+}
+
+command=${1:-help}
+shift || true
+case $command in
+setup) setup && echo "all packages are installed" ;;
+build) run_build ;;
+test) run_test ;;
+demo) run_demo ;;
+bench) run_bench "$@" ;;
+clean) rm -rf build ;;
+help | -h | --help) usage ;;
+*)
+    usage >&2
+    exit 2
+    ;;
+esac

@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs the build, moves the tree, and uses it through find_package and through pkg-config.
+# Environment: CMAKE CXX CXXFLAGS GENERATOR BUILD LIBDIR VERSION, set by tests/CMakeLists.txt.
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+
+check_version() { # program
+    local said
+    said=$("$1")
+    [[ $said == "$VERSION" ]] || { echo "$1 says version '$said', expected '$VERSION'"; exit 1; }
+}
+
+rm -rf installed moved project
+"$CMAKE" --install "$BUILD" --prefix "$PWD/installed" >install.log
+mv installed moved
+if grep -rlF "$BUILD" moved/"$LIBDIR"/cmake moved/"$LIBDIR"/pkgconfig moved/include; then
+    echo "the files above name the build folder"
+    exit 1
+fi
+
+echo "== find_package"
+"$CMAKE" -S "$here" -B project -G "$GENERATOR" -DCMAKE_PREFIX_PATH="$PWD/moved" >configure.log
+"$CMAKE" --build project >build.log || { cat build.log; exit 1; }
+check_version project/use_core
+check_version project/use_filters
+
+echo "== pkg-config"
+export PKG_CONFIG_PATH="$PWD/moved/$LIBDIR/pkgconfig"
+[[ $(pkg-config --modversion pimg) == "$VERSION" ]]
+# shellcheck disable=SC2046,SC2086  # flags are words
+"$CXX" -std=c++17 $CXXFLAGS "$here/use_core.cpp" -o use_core $(pkg-config --cflags --libs pimg)
+check_version ./use_core
+# shellcheck disable=SC2046,SC2086  # OpenImageIO's headers take seconds: only linked again
+"$CXX" $CXXFLAGS project/CMakeFiles/use_filters.dir/use_filters.cpp.o -o use_filters $(pkg-config --libs pimg)
+check_version ./use_filters
+
+echo "== headers that need no OpenImageIO compile alone"
+for header in $(grep -L OpenImageIO moved/include/pimg/*.h); do
+    echo "#include <pimg/$(basename "$header")>" >header.cpp
+    # shellcheck disable=SC2086
+    "$CXX" -std=c++17 $CXXFLAGS -fsyntax-only -Wall -Wextra -Werror -Imoved/include header.cpp ||
+        { echo "not self-contained: $header"; exit 1; }
+done

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The grammar, in one loop over the arguments. OpenImageIO's ArgParse is not used: it would hand over every
+// `--op:key=value` unparsed and its help knows nothing of keys, so what it takes off us is less than the adapting
+// costs, while one table of our own serves parsing, checks, --help, manual and completion alike.
+#include "command.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/strutil.h>
+
+namespace pimgtool {
+
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+/// Number of letters to change, add or drop to get from one word to the other.
+std::size_t distance(const std::string& a, const std::string& b)
+{
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t(0));
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t corner = row[0]++;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replaced = corner + (a[i] == b[j] ? 0 : 1);
+            corner = row[j + 1];
+            row[j + 1] = std::min({ replaced, row[j + 1] + 1, row[j] + 1 });
+        }
+    }
+    return row.back();
+}
+
+std::string unknown_command(const std::string& name)
+{
+    const Command* nearest = nullptr;
+    std::size_t least = 4;  // further off is no misspelling
+    for (const CommandGroup& group : command_table())
+        for (const Command& command : group.commands) {
+            const std::size_t d = distance(name, command.name);
+            if (d < least && d * 2 < name.size()) {
+                least = d;
+                nearest = &command;
+            }
+        }
+    const std::string hint = nearest ? format("did you mean {}?", nearest->name)
+                                     : "expected an operation that --help lists";
+    return format("unknown operation \"{}\": {}", name, hint);
+}
+
+/// Splits ":key=value:key=value". A value in quotation marks may hold colons.
+bool split_keys(const std::string& text, Call& call, std::string& error)
+{
+    for (std::size_t at = 0; at < text.size();) {
+        ++at;  // the colon
+        const std::size_t equals = text.find_first_of("=:", at);
+        if (equals == at || equals == std::string::npos || text[equals] == ':') {
+            error = format("\"{}\": expected key=value", text.substr(at, text.find(':', at) - at));
+            return false;
+        }
+        std::size_t begin = equals + 1;
+        std::size_t end = text.find(':', begin);
+        std::size_t next = end;
+        if (begin < text.size() && (text[begin] == '"' || text[begin] == '\'')) {
+            const std::size_t closing = text.find(text[begin], begin + 1);
+            if (closing != std::string::npos && (closing + 1 == text.size() || text[closing + 1] == ':')) {
+                end = closing;
+                next = closing + 1;
+                ++begin;
+            }
+        }
+        const std::string value = text.substr(begin, end == std::string::npos ? end : end - begin);
+        call.keys.emplace_back(text.substr(at, equals - at), value);
+        at = std::min(next, text.size());
+    }
+    return true;
+}
+
+/// Takes the words a command needs from the arguments after `at`.
+bool take_words(const std::vector<std::string>& arguments, std::size_t& at, Call& call, std::string& error)
+{
+    for (const std::string& name : OIIO::Strutil::splits(call.command->words)) {
+        const bool end = at + 1 >= arguments.size();
+        if (end || find_command(arguments[at + 1])) {
+            error = format("missing {}: expected {} {}{}", name, call.command->name, call.command->words,
+                           end ? "" : format(", found \"{}\"", arguments[at + 1]));
+            return false;
+        }
+        call.words.push_back(arguments[++at]);
+    }
+    return true;
+}
+
+bool parse_command(const std::vector<std::string>& arguments, std::size_t& at, Program& program, std::string& error)
+{
+    const std::string text = arguments[at];
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    Call call { find_command(text), {}, {} };
+    if (!call.command) {
+        error = unknown_command(text.substr(0, colon));
+        return false;
+    }
+    const auto fail = [&](const std::string& why) {
+        error = format("{}: {}", call.command->name, why);
+        return false;
+    };
+    if (!split_keys(text.substr(colon), call, error) || !take_words(arguments, at, call, error))
+        return fail(error);
+    if (!call.keys.empty() && !call.command->keys)
+        return fail(format("unknown option \"{}\": expected none", call.keys.front().first));
+    if (program.pictures < call.command->needs)
+        return fail(program.pictures == 0 ? "no picture to work on: expected an input file before it"
+                                          : format("expected {} pictures on the stack, there is one", call.command->needs));
+    if (!call.command->prepare(call, program, error))
+        return fail(error);
+    program.pictures += call.command->adds;
+    return true;
+}
+
+bool parse_input(const std::string& filename, Program& program, std::string& error)
+{
+    // A reader may take options after the name: `a.pimg?level=10`.
+    const std::string file = OIIO::Filesystem::exists(filename) ? filename : filename.substr(0, filename.find('?'));
+    const bool will_exist = std::count(program.written.begin(), program.written.end(), file) > 0;
+    if (!will_exist && !OIIO::Filesystem::exists(file)) {
+        error = format("cannot read \"{}\": no such file", filename);
+        return false;
+    }
+    if (!will_exist && OIIO::Filesystem::is_directory(file)) {
+        error = format("cannot read \"{}\": it is a directory, expected a file", filename);
+        return false;
+    }
+    program.inputs.push_back(filename);
+    program.steps.push_back({ "", [filename](Session& session) { return session.read(filename); } });
+    ++program.pictures;
+    return true;
+}
+
+}  // namespace
+
+const Command* find_command(const std::string& name)
+{
+    const std::string bare = name.substr(0, name.find(':'));
+    if (bare.empty() || bare[0] != '-')
+        return nullptr;
+    for (const CommandGroup& group : command_table())
+        for (const Command& command : group.commands)
+            if (bare == command.name || "-" + bare == command.name || bare == "-" + std::string(command.name))
+                return &command;
+    return nullptr;
+}
+
+bool parse(const std::vector<std::string>& arguments, Program& program, std::string& error)
+{
+    for (std::size_t at = 0; at < arguments.size(); ++at) {
+        const bool is_command = !arguments[at].empty() && arguments[at][0] == '-';
+        if (is_command ? !parse_command(arguments, at, program, error)
+                       : !parse_input(arguments[at], program, error))
+            return false;
+    }
+    if (!program.dangling.empty())
+        error = format("{} has no effect here: expected it before the -o it is meant for", program.dangling);
+    else if (program.inputs.empty())
+        error = "nothing to do: expected an input file, operations and -o FILE; --help lists them";
+    else if (program.written.empty() && program.stats.empty() && !program.verbose)
+        error = "nothing would be written: expected -o FILE, or --stats";
+    return error.empty();
+}
+
+}  // namespace pimgtool

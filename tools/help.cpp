@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "help.h"
+
+#include <algorithm>
+
+#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
+#include <pimg/version.h>
+
+#include "command.h"
+
+namespace pimgtool {
+
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+/// "a to b unit" or "one|two": what a key may be set to.
+std::string values_of(const pimg::OptionInfo& option)
+{
+    if (!option.choices.empty())
+        return option.choices;
+    std::string text = option.type == "flag" ? "0 or 1" : option.range.empty() ? option.type : option.range;
+    if (!option.unit.empty())
+        text += " " + option.unit;
+    return text;
+}
+
+}  // namespace
+
+std::string version_text()
+{
+    const int v = OIIO::get_int_attribute("version", OIIO_VERSION);
+    return format("pimgtool {} (OpenImageIO {}.{}.{})\n", PIMG_VERSION_STRING, v / 10000, v / 100 % 100, v % 100);
+}
+
+std::string help_text(const Command& command)
+{
+    const std::string words = *command.words == '\0' ? "" : format(" {}", command.words);
+    const std::string suffix = command.keys ? "[:key=value...]" : "";
+    std::string text = format("  {}{}{}\n      {}\n", command.name, suffix, words, command.help);
+    if (!command.keys)
+        return text;
+    const std::vector<pimg::OptionInfo> options = command.keys();
+    std::size_t keys = 0, values = 0;
+    for (const pimg::OptionInfo& option : options) {
+        keys = std::max(keys, option.key.size() + 1 + option.default_value.size());
+        values = std::max(values, values_of(option).size());
+    }
+    for (const pimg::OptionInfo& option : options)
+        text += format("      {:<{}}  {:<{}}  {}\n", option.key + "=" + option.default_value, keys, values_of(option),
+                       values, option.help);
+    return text;
+}
+
+std::string help_text()
+{
+    std::string text = "pimgtool: progressive images: HDR compression, smoothing and enhancement that know features\n"
+                       "\n"
+                       "usage: pimgtool INPUT [--operation[:key=value...]]... -o OUTPUT ...\n"
+                       "\n"
+                       "Arguments are taken from left to right: a file name puts a picture on the stack, an operation\n"
+                       "replaces the picture on top, -o writes it. Defaults are shown as key=default.\n"
+                       "\n"
+                       "  pimgtool in.exr --hdr-compress:beta=10 -o out.png\n"
+                       "  pimgtool in.exr --dup --level:faces=5000 -o coarse.exr --pop --detail-enhance -o fine.exr\n";
+    for (const CommandGroup& group : command_table()) {
+        text += format("\n{}:\n", group.title);
+        for (const Command& command : group.commands)
+            text += help_text(command);
+    }
+    return text;
+}
+
+}  // namespace pimgtool

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "output.h"
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+
+#include <unistd.h>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
+
+#include "colour.h"
+
+namespace pimgtool {
+
+namespace {
+
+using OIIO::ImageBuf;
+using OIIO::ImageOutput;
+using OIIO::ImageSpec;
+using OIIO::ROI;
+using OIIO::TypeDesc;
+namespace Filesystem = OIIO::Filesystem;
+using OIIO::Strutil::fmt::format;
+
+/// The name of the file being written, for the signal handler: interrupted work leaves nothing behind either.
+char unfinished_file[4096] = "";
+
+void remove_unfinished(int signal)
+{
+    if (unfinished_file[0] != '\0')
+        unlink(unfinished_file);
+    _exit(128 + signal);
+}
+
+/// Signals that are ignored, as under nohup, stay so.
+void on_interruption(void (*handler)(int))
+{
+    for (const int signal : { SIGINT, SIGTERM, SIGHUP })
+        if (std::signal(signal, handler) == SIG_IGN)
+            std::signal(signal, SIG_IGN);
+}
+
+/// A file beside its final name, removed again unless keep() succeeds.
+class TemporaryFile {
+public:
+    explicit TemporaryFile(const std::string& target)
+        : m_target(target), m_name(Filesystem::unique_path(Filesystem::replace_extension(
+                                target, ".%%%%%%%%.temp" + Filesystem::extension(target))))
+    {
+        if (m_name.size() < sizeof unfinished_file)
+            std::copy(m_name.c_str(), m_name.c_str() + m_name.size() + 1, unfinished_file);
+        on_interruption(remove_unfinished);
+    }
+    ~TemporaryFile()
+    {
+        on_interruption(SIG_DFL);
+        unfinished_file[0] = '\0';
+        std::remove(m_name.c_str());
+    }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+    const std::string& name() const { return m_name; }
+
+    /// A format that writes no file at all, such as OpenImageIO's "null" and "term", is fine.
+    bool keep(std::string& error)
+    {
+        return !Filesystem::exists(m_name) || Filesystem::rename(m_name, m_target, error);
+    }
+
+private:
+    std::string m_target, m_name;
+};
+
+/// What `out` stores when asked for `type`: found by writing a small picture, since OpenImageIO offers
+/// no question for it and the answer decides what the real one holds.
+bool stored_type(ImageOutput& out, const std::string& filename, int channels, TypeDesc& type, std::string& error)
+{
+    const ImageSpec spec(16, 16, channels, type);
+    if (!out.open(filename, spec)) {
+        error = out.geterror();
+        return false;
+    }
+    type = out.spec().format;
+    const std::vector<float> black(std::size_t(spec.image_pixels()) * std::size_t(channels), 0.0f);
+    out.write_image(OIIO::TypeFloat, black.data());
+    out.close();
+    out.geterror();  // only the type matters here
+    std::remove(filename.c_str());
+    return true;
+}
+
+/// The part of a picture that a format without display window or negative coordinates can hold, as oiiotool does.
+ROI writable_window(const ImageBuf& pixels, const ImageOutput& out)
+{
+    ROI window = pixels.roi();
+    if (!out.supports("displaywindow"))
+        window = pixels.roi_full();
+    window.chbegin = 0;
+    window.chend = pixels.nchannels();
+    if (!out.supports("negativeorigin")) {
+        window.xbegin = std::max(window.xbegin, 0);
+        window.ybegin = std::max(window.ybegin, 0);
+    }
+    return window;
+}
+
+/// The header of the file: the metadata of the pixels, stored as the types wanted.
+ImageSpec file_spec(const ImageBuf& pixels, const PixelTypes& types, const ImageOutput& out)
+{
+    ImageSpec spec = pixels.spec();
+    if (spec.get_int_attribute("oiio:BitsPerSample") != int(types.all.size()) * 8)
+        spec.erase_attribute("oiio:BitsPerSample");
+    spec.erase_attribute("textureformat");  // one level of no MIP-map
+    spec.tile_width = spec.tile_height = spec.tile_depth = 0;
+    spec.set_format(types.all);
+    if (int(types.per_channel.size()) == spec.nchannels && out.supports("channelformats"))
+        spec.channelformats = types.per_channel;
+    return spec;
+}
+
+bool write_pixels(ImageOutput& out, const ImageBuf& pixels, const std::string& filename, const ImageSpec& spec,
+                  const std::function<void(float)>& progress, std::string& error)
+{
+    const auto show = [](void* data, float done) {
+        (*static_cast<const std::function<void(float)>*>(data))(done);
+        return false;
+    };
+    if (!out.open(filename, spec)) {
+        error = out.geterror();
+        return false;
+    }
+    const bool written = pixels.write(&out, show, const_cast<std::function<void(float)>*>(&progress));
+    if (!written)
+        error = pixels.has_error() ? pixels.geterror() : out.geterror();
+    const bool closed = out.close();
+    if (written && !closed)
+        error = out.geterror();
+    return written && closed;
+}
+
+}  // namespace
+
+const char* const kOutputTypes = "uint8, uint16, uint32, int8, int16, int32, half, float, double";
+
+TypeDesc output_type(const std::string& word)
+{
+    for (const TypeDesc::BASETYPE type : { TypeDesc::UINT8, TypeDesc::UINT16, TypeDesc::UINT32, TypeDesc::INT8,
+                                           TypeDesc::INT16, TypeDesc::INT32, TypeDesc::HALF, TypeDesc::FLOAT,
+                                           TypeDesc::DOUBLE })
+        if (TypeDesc(word) == TypeDesc(type))
+            return type;
+    return TypeDesc::UNKNOWN;
+}
+
+bool can_write(const std::string& filename, std::string& error)
+{
+    const std::string extension = Filesystem::extension(filename, false);
+    const std::string directory = Filesystem::parent_path(filename);
+    if (extension.empty())
+        error = "expected a name with the extension of an image format, such as .png or .exr";
+    else if (!directory.empty() && !Filesystem::is_directory(directory))
+        error = format("no directory \"{}\"", directory);
+    else if (access(directory.empty() ? "." : directory.c_str(), W_OK) != 0)
+        error = format("no permission to write in directory \"{}\"", directory.empty() ? "." : directory);
+    else if (Filesystem::is_directory(filename))
+        error = "it is a directory";
+    else if (!ImageOutput::create(filename))
+        error = format("no image format that OpenImageIO can write has the extension \".{}\"", extension);
+    OIIO::geterror();  // said above in fewer words
+    return error.empty();
+}
+
+bool write_picture(const OutputPicture& picture, const std::string& filename,
+                   const std::function<void(float)>& progress, std::string& summary, std::string& error)
+{
+    const std::unique_ptr<ImageOutput> out = ImageOutput::create(filename);
+    if (!out) {
+        error = OIIO::geterror();
+        return false;
+    }
+    TemporaryFile file(filename);
+    TypeDesc type = picture.types.all;
+    if (picture.encode_srgb && !stored_type(*out, file.name(), picture.pixels.nchannels(), type, error))
+        return false;
+
+    ImageBuf pixels;  // as they are written, where that differs from what they are
+    const ImageBuf* source = &picture.pixels;
+    const ROI window = writable_window(*source, *out);
+    if (window != source->roi() && !source->deep()) {
+        pixels = OIIO::ImageBufAlgo::crop(*source, window);
+        source = &pixels;
+    }
+    const bool encode = picture.encode_srgb && !type.is_floating_point() && !source->deep();
+    if (encode) {
+        pixels = srgb_encoded(*source);
+        source = &pixels;
+    }
+    const ImageSpec spec = file_spec(*source, picture.types, *out);
+    if (!write_pixels(*out, *source, file.name(), spec, progress, error) || !file.keep(error))
+        return false;
+    summary = format("{} x {} {}{}", spec.width, spec.height, out->spec().format.c_str(),
+                     encode ? ", encoded sRGB" : "");
+    return true;
+}
+
+}  // namespace pimgtool

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writing pictures: formats are checked before any work, files appear whole or not at all, and linear light is
+// encoded for formats of whole numbers.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <OpenImageIO/imagebuf.h>
+
+namespace pimgtool {
+
+/// Pixel types of a file: that of all channels, or one per channel where they differ.
+struct PixelTypes {
+    OIIO::TypeDesc all;
+    std::vector<OIIO::TypeDesc> per_channel;
+};
+
+/// What `-d` and `--raw` say about the files that follow.
+struct OutputSettings {
+    OIIO::TypeDesc type;  ///< UNKNOWN: as the input was stored
+    bool raw = false;     ///< numbers are written as they are
+};
+
+/// What a file is to be written from.
+struct OutputPicture {
+    const OIIO::ImageBuf& pixels;
+    PixelTypes types;  ///< wanted; the format may know better
+    bool encode_srgb;  ///< encode for display if the format stores whole numbers
+};
+
+/// The type `-d` may be given, UNKNOWN for any other word.
+OIIO::TypeDesc output_type(const std::string& word);
+extern const char* const kOutputTypes;  ///< the words, for help and messages
+
+/// False, with a line saying why, if a file of that name cannot be written: no writer for its extension, no such
+/// directory, a directory.
+bool can_write(const std::string& filename, std::string& error);
+
+/// Writes to a temporary name beside `filename` and renames it when all is written. `summary` receives a few words on
+/// what was written, `error` the line that says why not.
+bool write_picture(const OutputPicture& picture, const std::string& filename,
+                   const std::function<void(float)>& progress, std::string& summary, std::string& error);
+
+}  // namespace pimgtool

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "progress_bar.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <unistd.h>
+
+#include <OpenImageIO/strutil.h>
+
+namespace pimgtool {
+
+ProgressBar::ProgressBar(std::string label)
+    : m_label(std::move(label)), m_terminal(isatty(STDERR_FILENO) != 0), m_next(Clock::now() + std::chrono::seconds(1))
+{
+}
+
+ProgressBar::~ProgressBar()
+{
+    if (m_shown != 0)
+        std::fprintf(stderr, "\r%*s\r", int(m_shown), "");
+}
+
+void ProgressBar::show(float done)
+{
+    if (!m_terminal || Clock::now() < m_next)
+        return;
+    m_next = Clock::now() + std::chrono::milliseconds(100);
+    constexpr std::size_t width = 32;
+    const float share = std::clamp(done, 0.0f, 1.0f);
+    const std::size_t filled = std::size_t(share * float(width));
+    const std::string bar = std::string(filled, '#') + std::string(width - filled, '.');
+    const std::string line = OIIO::Strutil::fmt::format("{} [{}] {:3.0f} %", m_label, bar, share * 100.0f);
+    std::fprintf(stderr, "\r%s", line.c_str());
+    std::fflush(stderr);
+    m_shown = std::max(m_shown, line.size());
+}
+
+}  // namespace pimgtool

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stack.h"
+
+#include <cstdio>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagecache.h>
+#include <OpenImageIO/strutil.h>
+
+#include "colour.h"
+#include "progress_bar.h"
+
+namespace pimgtool {
+
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+/// Pictures of floating-point numbers hold linear light unless they say otherwise.
+bool holds_linear_light(const OIIO::ImageSpec& stored)
+{
+    const std::string space = stored.get_string_attribute("oiio:ColorSpace");
+    return stored.format.is_floating_point() && (space.empty() || is_linear_space(space));
+}
+
+PixelTypes pixel_types(const OIIO::ImageSpec& stored) { return { stored.format, stored.channelformats }; }
+
+std::string describe(const OIIO::ImageBuf& pixels, const PixelTypes& types)
+{
+    const OIIO::ImageSpec& spec = pixels.spec();
+    return format("{} x {}, {} channel{}, {} {}", spec.width, spec.height, spec.nchannels,
+                  spec.nchannels == 1 ? "" : "s", types.all.c_str(),
+                  spec.get_string_attribute("oiio:ColorSpace", "of no stated colour space"));
+}
+
+bool same_options(const pimg::BuildOptions& a, const pimg::BuildOptions& b)
+{
+    for (const pimg::Option<pimg::BuildOptions>& option : pimg::option_table<pimg::BuildOptions>())
+        if (pimg::get_option(a, option) != pimg::get_option(b, option))
+            return false;
+    return true;
+}
+
+std::string label(const char* doing, const std::string& filename)
+{
+    return format("{} {}", doing, OIIO::Filesystem::filename(filename));
+}
+
+}  // namespace
+
+bool Session::fail(std::string message)
+{
+    m_error = std::move(message);
+    return false;
+}
+
+void Session::say(const std::string& line) const
+{
+    if (verbose)
+        std::fprintf(stderr, "%s\n", line.c_str());
+}
+
+bool Session::read(const std::string& filename)
+{
+    const bool again = --m_reads_left[filename] > 0;
+    const auto kept = m_kept.find(filename);
+    if (kept != m_kept.end()) {
+        stack.push_back(kept->second);
+        if (!again)
+            m_kept.erase(kept);
+        return true;
+    }
+    const StageTimer timer(stats, Stage::read);
+    auto pixels = std::make_shared<OIIO::ImageBuf>(filename);
+    ProgressBar bar(label("reading", filename));
+    const auto show = [](void* data, float done) {
+        static_cast<ProgressBar*>(data)->show(done);
+        return false;
+    };
+    // Forced: straight into memory of our own, in the file's type, and not through the shared image cache.
+    if (!pixels->read(0, 0, true, OIIO::TypeUnknown, show, &bar))
+        return fail(format("cannot read \"{}\": {}", filename, pixels->geterror()));
+    if (pixels->nsubimages() > 1)
+        say(format("{}: only the first of {} images is used", filename, pixels->nsubimages()));
+
+    Picture picture;
+    picture.name = filename;
+    picture.stored = pixel_types(pixels->nativespec());
+    picture.linear_light = holds_linear_light(pixels->nativespec());
+    picture.pixels = pixels;
+    picture.hierarchy = std::make_shared<LazyHierarchy>();
+    say(format("{}: {}, {:.2f} s", filename, describe(*pixels, picture.stored), timer.seconds()));
+    stack.push_back(picture);
+    if (again)
+        m_kept[filename] = picture;
+    return true;
+}
+
+bool Session::write(const std::string& filename)
+{
+    const StageTimer timer(stats, Stage::write);
+    const Picture& picture = top();
+    OutputPicture out { *picture.pixels, picture.stored, picture.linear_light && !output.raw };
+    if (output.type != OIIO::TypeUnknown)
+        out.types = { output.type, {} };
+    ProgressBar bar(label("writing", filename));
+    std::string summary, error;
+    if (!write_picture(out, filename, [&](float done) { bar.show(done); }, summary, error))
+        return fail(format("cannot write \"{}\": {}", filename, error));
+    // What will be read under this name is the new file.
+    m_kept.erase(filename);
+    OIIO::ImageCache::create(true)->invalidate(OIIO::ustring(filename), true);
+    say(format("{}: wrote {}, {:.2f} s", filename, summary, timer.seconds()));
+    return true;
+}
+
+bool Session::build(const pimg::BuildOptions& options)
+{
+    // Copies made earlier keep theirs.
+    if (!same_options(top().hierarchy->options, options))
+        top().hierarchy = std::make_shared<LazyHierarchy>(LazyHierarchy { options, {} });
+    return hierarchy_of_top() != nullptr;
+}
+
+const pimg::ProgressiveImage* Session::hierarchy_of_top()
+{
+    LazyHierarchy& lazy = *top().hierarchy;
+    if (lazy.image.initialized())
+        return &lazy.image;
+    ProgressBar bar(label("building", top().name));
+    const auto show = [&](float done) {
+        bar.show(done);
+        return true;
+    };
+    if (!lazy.image.build(*top().pixels, lazy.options, 0, show)) {
+        fail(lazy.image.error());
+        return nullptr;
+    }
+    const pimg::Hierarchy& hierarchy = lazy.image.hierarchy();
+    stats.add(top().name, lazy.image);
+    say(format("{}: built {} vertices, {} splits, {:.2f} s", top().name, hierarchy.vertices(), hierarchy.levels(),
+               lazy.image.stats().simplify_seconds));
+    return &lazy.image;
+}
+
+bool Session::filter(const Filter& run, Meaning meaning)
+{
+    const pimg::ProgressiveImage* source = hierarchy_of_top();
+    if (!source)
+        return false;
+    const StageTimer timer(stats, Stage::filter);
+    auto result = std::make_shared<OIIO::ImageBuf>();
+    if (!run(*result, *source))
+        return fail(result->has_error() ? result->geterror() : "failed");
+
+    Picture picture = top();
+    picture.pixels = result;
+    picture.hierarchy = std::make_shared<LazyHierarchy>();
+    // What was asked of the first build holds for the next, but for the colour space: the result states its own.
+    picture.hierarchy->options = top().hierarchy->options;
+    picture.hierarchy->options.incolorspace.clear();
+    if (meaning == Meaning::display_linear)
+        picture.linear_light = true;
+    say(format("{}: filtered, {:.3f} s", picture.name, timer.seconds()));
+    top() = picture;
+    return true;
+}
+
+bool Session::change_pixels(const PixelOperation& run)
+{
+    const StageTimer timer(stats, Stage::filter);
+    auto result = std::make_shared<OIIO::ImageBuf>();
+    if (!run(*result, *top().pixels))
+        return fail(result->has_error() ? result->geterror() : "failed");
+    auto hierarchy = std::make_shared<LazyHierarchy>();
+    hierarchy->options = top().hierarchy->options;
+    top().pixels = result;
+    top().hierarchy = hierarchy;
+    return true;
+}
+
+}  // namespace pimgtool

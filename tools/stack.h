@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The pictures being worked on. Operations take the picture on top and put their result there; the
+// hierarchy of a picture is built when first needed and shared by its copies.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <OpenImageIO/imagebuf.h>
+#include <pimg/progressive_image.h>
+
+#include "output.h"
+#include "stats.h"
+
+namespace pimgtool {
+
+/// A hierarchy to be built when first needed.
+struct LazyHierarchy {
+    pimg::BuildOptions options;
+    pimg::ProgressiveImage image;
+};
+
+/// A picture on the stack. Copies share pixels and hierarchy, neither of which changes any more: an operation makes
+/// new ones.
+struct Picture {
+    std::string name;  ///< of the file it came from
+    std::shared_ptr<const OIIO::ImageBuf> pixels;
+    std::shared_ptr<LazyHierarchy> hierarchy;
+    PixelTypes stored;          ///< pixel types of the file it came from: what it is written as unless told otherwise
+    bool linear_light = false;  ///< its numbers are linear light that no colour operation has converted
+};
+
+/// What the numbers of a filter's result mean.
+enum class Meaning {
+    as_before,      ///< the same as those of the picture it was made from
+    display_linear  ///< linear light, white at 1
+};
+
+/// The stack, and what the operations on it share. Every function that can fail returns false and leaves a line
+/// in error().
+class Session {
+public:
+    using Filter = std::function<bool(OIIO::ImageBuf& dst, const pimg::ProgressiveImage& src)>;
+    using PixelOperation = std::function<bool(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src)>;
+
+    /// A file named several times is read and built once: announce() all reads before the first read().
+    void announce(const std::string& filename) { ++m_reads_left[filename]; }
+    bool read(const std::string& filename);
+    bool write(const std::string& filename);
+
+    /// Builds the hierarchy of the top picture now, with the given options.
+    bool build(const pimg::BuildOptions& options);
+
+    /// Replaces the top picture by the result of a filter on its hierarchy.
+    bool filter(const Filter& run, Meaning meaning = Meaning::as_before);
+
+    /// Replaces the pixels of the top picture by those an operation without hierarchy makes of them.
+    bool change_pixels(const PixelOperation& run);
+
+    bool fail(std::string message);
+    const std::string& error() const { return m_error; }
+
+    /// A line for -v.
+    void say(const std::string& line) const;
+
+    /// The commands make sure that there is a picture before they ask for it.
+    Picture& top() { return stack.back(); }
+
+    std::vector<Picture> stack;
+    OutputSettings output;  ///< of the files written from here on
+    Stats stats;
+    bool verbose = false;
+
+private:
+    const pimg::ProgressiveImage* hierarchy_of_top();
+
+    std::map<std::string, int> m_reads_left;
+    std::map<std::string, Picture> m_kept;  ///< pictures that will be read again
+    std::string m_error;
+};
+
+}  // namespace pimgtool
