@@ -30,14 +30,14 @@ std::vector<float> picture(int width, int height)
 
 struct Built {
     Hierarchy hierarchy;
-    Bands bands;
+    std::vector<Bands> bands;
     DualPieces pieces;
 
     Built(int width, int height, const std::vector<float>& z, Index base_faces = 16)
     {
         SimplifyOptions options;
         options.base_faces = base_faces;
-        EXPECT_TRUE(simplify({ width, height, z.data() }, options, hierarchy, bands).ok());
+        EXPECT_TRUE(simplify({ width, height, { { z.data() } } }, options, hierarchy, bands).ok());
         EXPECT_TRUE(DualPieces::from_hierarchy(hierarchy, pieces).ok());
     }
     Built(int width, int height) : Built(width, height, picture(width, height)) {}
