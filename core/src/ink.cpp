@@ -11,11 +11,12 @@ namespace pimg {
 namespace {
 
 constexpr float kLightest = 0.04f;    ///< darkness that is left white
-constexpr float kOneWay = 0.45f;      ///< darkness up to which one direction does
+constexpr float kOneWay = 0.5f;       ///< darkness up to which one direction does
 constexpr float kDarkest = 0.9f;      ///< of one direction: lines just leave a little paper
 constexpr float kFree = 0.35f;        ///< share of the tone claimed where a line may still start
-constexpr float kNear = 0.75f;        ///< ... and where one ends that was started elsewhere
+constexpr float kNear = 0.6f;        ///< ... and where one ends that was started elsewhere
 constexpr float kToneChange = 0.30f;  ///< darkness may change so much along a line
+constexpr float kTone = 1.6f;         ///< exponent of the darkness: pens leave light tones to the paper
 constexpr int kMostSteps = 24;
 
 struct Tones {
@@ -32,7 +33,7 @@ struct Tones {
 /// One direction of hatching: along the field or across it.
 class Hatch {
 public:
-    Hatch(const DirectionField& field, const InkOptions& options, Tones tones, bool across)
+    Hatch(const DirectionField& field, const PenSettings& options, Tones tones, bool across)
         : m_field(field), m_options(options), m_tones(std::move(tones)), m_across(across)
     {
     }
@@ -49,7 +50,7 @@ private:
     void claim(Vec2 from, Vec2 to);
 
     const DirectionField& m_field;
-    const InkOptions& m_options;
+    const PenSettings& m_options;
     Tones m_tones;
     bool m_across;
 };
@@ -123,7 +124,7 @@ void Hatch::draw(const Dab& dab, Strokes& lines)
 }
 
 /// Darkness with the edges' outlines added.
-std::vector<float> with_outlines(const float* darkness, int width, int height, const InkOptions& options)
+std::vector<float> with_outlines(const float* darkness, int width, int height, const PenSettings& options)
 {
     std::vector<float> wanted(std::size_t(width) * std::size_t(height));
     const auto clean = [&](int x, int y) {
@@ -136,7 +137,7 @@ std::vector<float> with_outlines(const float* darkness, int width, int height, c
             const float gx = 0.5f * (clean(x + 1, y) - clean(x - 1, y)), gy = 0.5f * (clean(x, y + 1) - clean(x, y - 1));
             const float edge = std::max(0.0f, std::sqrt(gx * gx + gy * gy) - 0.04f);
             wanted[std::size_t(y) * std::size_t(width) + std::size_t(x)]
-                = std::min(1.0f, options.density * clean(x, y) + 4.0f * options.outline * edge);
+                = std::min(1.0f, options.density * std::pow(clean(x, y), kTone) + 4.0f * options.outline * edge);
         }
     return wanted;
 }
@@ -144,7 +145,7 @@ std::vector<float> with_outlines(const float* darkness, int width, int height, c
 }  // namespace
 
 Status plan_ink(const Hierarchy& hierarchy, const float* darkness, const DirectionField& field,
-                const InkOptions& options, Strokes& lines)
+                const PenSettings& options, Strokes& lines)
 {
     const int width = field.width(), height = field.height();
     lines = {};

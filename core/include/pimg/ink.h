@@ -8,7 +8,7 @@
 
 namespace pimg {
 
-struct InkOptions {
+struct PenSettings {
     float width = 1.3f;          ///< of the pen in pixels, 0.5..16
     float length = 1.0f;         ///< factor on the lines' length, 0.1..10
     float density = 1.0f;        ///< factor on the darkness, 0..4
@@ -22,6 +22,6 @@ struct InkOptions {
 /// The lines start at the dual pieces, coarse to fine; each keeps the distance to the others that its width
 /// over the darkness asks for, and ends where the darkness changes.
 Status plan_ink(const Hierarchy& hierarchy, const float* darkness, const DirectionField& field,
-                const InkOptions& options, Strokes& lines);
+                const PenSettings& options, Strokes& lines);
 
 }  // namespace pimg
