@@ -268,4 +268,57 @@ const std::vector<Option<HdrCompressOptions>>& option_table<HdrCompressOptions>(
     return table;
 }
 
+template<>
+const std::vector<Option<PaintOptions>>& option_table<PaintOptions>()
+{
+    using T = PaintOptions;
+    static const std::vector<Option<T>> table = {
+        { &T::min, { "min", 1, 1000, "pixels", "", "width of the narrowest brush" } },
+        { &T::max, { "max", 1, 1000, "pixels", "", "width of the widest brush" } },
+        { &T::brush, { "brush", 0, 0, "", "", "round, flat, bristle, knife, or a picture: alpha where, grey how thick" } },
+        { &T::length, { "length", 0, 10, "", "", "factor on the length of strokes" } },
+        { &T::tolerance, { "tolerance", 0, 255, "8-bit steps", "", "least improvement a stroke must bring; 0: all strokes" } },
+        { &T::opacity, { "opacity", 0, 1, "", "", "of every stroke; 0 leaves the canvas as it is" } },
+        { &T::impasto, { "impasto", 0, 1, "", "", "strength of the light on the relief of the paint" } },
+        { &T::jitter_color, { "jitter_color", 0, 1, "", "", "random change of a stroke's brightness, as a share of it" } },
+        { &T::jitter_angle, { "jitter_angle", 0, 1, "", "", "random turn of a stroke, as a share of 45 degrees" } },
+        { &T::jitter_size, { "jitter_size", 0, 1, "", "", "random change of a stroke's width, as a share of it" } },
+        { &T::seed, { "seed", 0, kAnyInt, "", "", "of all that is random" } },
+        { &T::canvas, { "canvas", 0, 0, "", "", "white, black, R,G,B or a picture to paint on; else the picture itself" } },
+        { &T::detail, { "detail", 0, 0, "", "", "picture scaling the brushes: white 1/4, 0.5 unchanged, black 4 times" } },
+        { &T::strokes, { "strokes", 0, 0, "", "", "FILE.svg or FILE.json to write the strokes to" } },
+    };
+    return table;
+}
+
+template<>
+const std::vector<Option<MosaicOptions>>& option_table<MosaicOptions>()
+{
+    using T = MosaicOptions;
+    static const std::vector<Option<T>> table = {
+        { &T::tiles, { "tiles", 4, kAnyInt, "tiles", "", "number of tiles; at least those of the base mesh" } },
+        { &T::grout, { "grout", 0, 64, "pixels", "", "width of the joints" } },
+        { &T::bevel, { "bevel", 0, 64, "pixels", "", "width of the slope around a tile" } },
+        { &T::relief, { "relief", 0, 1, "", "", "how strongly the slopes are lit" } },
+        { &T::color, { "color", 0, 0, "", "", "of the joints: white, black, grey level or R,G,B" } },
+    };
+    return table;
+}
+
+template<>
+const std::vector<Option<InkOptions>>& option_table<InkOptions>()
+{
+    using T = InkOptions;
+    static const std::vector<Option<T>> table = {
+        { &T::width, { "width", 0.5, 16, "pixels", "", "of the pen" } },
+        { &T::length, { "length", 0.1, 10, "", "", "factor on the length of lines" } },
+        { &T::density, { "density", 0, 4, "", "", "factor on the darkness" } },
+        { &T::outline, { "outline", 0, 4, "", "", "darkness added along edges" } },
+        { &T::cross, { "cross", 0, 0, "", "", "cross the lines where it is dark" } },
+        { &T::seed, { "seed", 0, kAnyInt, "", "", "of all that is random" } },
+        { &T::strokes, { "strokes", 0, 0, "", "", "FILE.svg or FILE.json to write the lines to" } },
+    };
+    return table;
+}
+
 }  // namespace pimg

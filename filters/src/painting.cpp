@@ -95,7 +95,7 @@ OwnedPlanes stored_planes(const ProgressiveImage::Data& data)
 
 bool eye_planes(ProgressiveImage::Data& data, const ParallelFor& parallel, OwnedPlanes& planes, std::string& error)
 {
-    if (data.stats.log_guide) {
+    if (data.stats.guide == "log") {
         const LogBands* bands = data.log_bands(parallel, error);
         if (bands == nullptr)
             return false;
@@ -123,7 +123,7 @@ std::vector<float> darkness(const ProgressiveImage::Data& data, const OwnedPlane
     }
     // Stored samples have their own black and white; a logarithm's are the picture's 1 % and 99 %.
     float black = 0.0f, white = 255.0f;
-    if (data.stats.log_guide) {
+    if (data.stats.guide == "log") {
         std::vector<float> sorted = tones;
         const auto place = [&](double q) { return sorted.begin() + std::ptrdiff_t(q * double(pixels - 1)); };
         std::nth_element(sorted.begin(), place(0.01), sorted.end());

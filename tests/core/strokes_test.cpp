@@ -71,7 +71,7 @@ TEST(DirectionField, runs_along_straight_edges_and_into_flat_places)
         });
         const DirectionField field(Planes { p.width, p.height, { p.samples.data() } });
         for (const Vec2 place : { Vec2 { 48, 40 }, Vec2 { 47, 41 }, Vec2 { 3, 3 }, Vec2 { 90, 75 }, Vec2 { 95, 0 } })
-            EXPECT_GT(turn_between(field.at(place), along), 0.97f) << angle << " at " << place.x << ", " << place.y;
+            EXPECT_GT(turn_between(field.at(place), along), 0.92f) << angle << " at " << place.x << ", " << place.y;
     }
 }
 

@@ -92,6 +92,31 @@ bool wireframe(ImageBuf& dst, const ProgressiveImage& src, const WireframeOption
 ImageBuf wireframe(const ImageBuf& src, const WireframeOptions& options = {}, ROI roi = {}, int nthreads = 0);
 ImageBuf wireframe(const ProgressiveImage& src, const WireframeOptions& options = {}, ROI roi = {}, int nthreads = 0);
 
+/// Paints the picture with brush strokes (paper, section 5.2): one for every base vertex and for both vertices of every
+/// split, from coarse to fine, placed and sized by their dual pieces, bent along the edges, and left out where they
+/// would not bring the canvas closer to the picture. Paint ends at the picture's edges. NaN and Inf are painted over.
+/// opacity = 0 on the picture's own canvas: the source, bit for bit. Nothing is clipped.
+bool paint(ImageBuf& dst, const ImageBuf& src, const PaintOptions& options = {}, ROI roi = {}, int nthreads = 0);
+bool paint(ImageBuf& dst, const ProgressiveImage& src, const PaintOptions& options = {}, ROI roi = {},
+           int nthreads = 0);
+ImageBuf paint(const ImageBuf& src, const PaintOptions& options = {}, ROI roi = {}, int nthreads = 0);
+ImageBuf paint(const ProgressiveImage& src, const PaintOptions& options = {}, ROI roi = {}, int nthreads = 0);
+
+/// Lays the dual pieces of the level with that many vertices as tiles of their mean colour, with joints and bevels.
+/// NaN and Inf become what is around them.
+bool mosaic(ImageBuf& dst, const ImageBuf& src, const MosaicOptions& options = {}, ROI roi = {}, int nthreads = 0);
+bool mosaic(ImageBuf& dst, const ProgressiveImage& src, const MosaicOptions& options = {}, ROI roi = {},
+            int nthreads = 0);
+ImageBuf mosaic(const ImageBuf& src, const MosaicOptions& options = {}, ROI roi = {}, int nthreads = 0);
+ImageBuf mosaic(const ProgressiveImage& src, const MosaicOptions& options = {}, ROI roi = {}, int nthreads = 0);
+
+/// Draws the picture with black lines (0) on white paper (1): along the edges, as dense as it is dark.
+bool ink(ImageBuf& dst, const ImageBuf& src, const InkOptions& options = {}, ROI roi = {}, int nthreads = 0);
+bool ink(ImageBuf& dst, const ProgressiveImage& src, const InkOptions& options = {}, ROI roi = {},
+         int nthreads = 0);
+ImageBuf ink(const ImageBuf& src, const InkOptions& options = {}, ROI roi = {}, int nthreads = 0);
+ImageBuf ink(const ProgressiveImage& src, const InkOptions& options = {}, ROI roi = {}, int nthreads = 0);
+
 /// The level the options ask for. False, with an error, if they ask for several.
 bool find_level(const Hierarchy& hierarchy, const LevelOptions& options, Level& level, std::string& error);
 

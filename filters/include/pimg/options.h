@@ -116,6 +116,44 @@ struct HdrCompressOptions {
     float exposure = 0.0f;    ///< brightness added to that, in stops
 };
 
+/// Painterly rendering (paper, section 5.2).
+struct PaintOptions {
+    float min = 3.0f;              ///< narrowest brush in pixels
+    float max = 32.0f;             ///< widest brush in pixels
+    std::string brush = "bristle"; ///< round, flat, bristle, knife, or a picture: alpha says where, grey how thick
+    float length = 1.0f;           ///< factor on the length of strokes
+    float tolerance = 3.0f;        ///< least improvement a stroke must bring, in 8-bit steps; 0: strokes for all splits
+    float opacity = 1.0f;          ///< of every stroke; 0 leaves the canvas
+    float impasto = 0.0f;          ///< strength of the light on the relief of the paint
+    float jitter_color = 0.0f;     ///< random change of a stroke's brightness, as a share of it
+    float jitter_angle = 0.0f;     ///< random turn of a stroke, as a share of 45 degrees
+    float jitter_size = 0.0f;      ///< random change of a stroke's width, as a share of it
+    int seed = 1;                  ///< of all that is random
+    std::string canvas;            ///< colour or picture painted on; empty: the picture itself
+    std::string detail;            ///< picture that scales the brushes: white for a quarter, grey 0.5 as they are, black for four times
+    std::string strokes;           ///< FILE.svg or FILE.json the strokes are written to; empty: none
+};
+
+/// Dual pieces as the tiles of a mosaic (paper, section 7).
+struct MosaicOptions {
+    int tiles = 2000;            ///< number of tiles
+    float grout = 1.5f;          ///< width of the joints in pixels
+    float bevel = 2.0f;          ///< width of the slope around a tile in pixels
+    float relief = 0.5f;         ///< how strongly the slopes are lit
+    std::string color = "0.15";  ///< of the joints, in the picture's units
+};
+
+/// Pen and ink (paper, section 7).
+struct InkOptions {
+    float width = 1.3f;    ///< of the pen in pixels
+    float length = 1.0f;   ///< factor on the length of lines
+    float density = 1.0f;  ///< factor on the darkness
+    float outline = 1.0f;  ///< darkness added along edges
+    bool cross = true;     ///< a second direction where it is dark
+    int seed = 1;          ///< of all that is random
+    std::string strokes;   ///< FILE.svg or FILE.json the lines are written to; empty: none
+};
+
 template<>
 const std::vector<Option<BuildOptions>>& option_table<BuildOptions>();
 template<>
@@ -128,6 +166,12 @@ template<>
 const std::vector<Option<DetailEnhanceOptions>>& option_table<DetailEnhanceOptions>();
 template<>
 const std::vector<Option<HdrCompressOptions>>& option_table<HdrCompressOptions>();
+template<>
+const std::vector<Option<PaintOptions>>& option_table<PaintOptions>();
+template<>
+const std::vector<Option<MosaicOptions>>& option_table<MosaicOptions>();
+template<>
+const std::vector<Option<InkOptions>>& option_table<InkOptions>();
 
 // ---- implementation ---------------------------------------------------------------------------------------
 
