@@ -12,7 +12,7 @@ readonly packages=(
     g++ cmake ninja-build pkg-config
     libopenimageio-dev openimageio-tools libopencolorio-dev libimath-dev libopenexr-dev libopencv-dev
     libhwy-dev libzstd-dev libboost-dev
-    python3-dev python3-numpy python3-openimageio pybind11-dev
+    python3-dev python3-zstandard python3-numpy python3-openimageio pybind11-dev
     libgtest-dev libbenchmark-dev libcgal-dev
 )
 

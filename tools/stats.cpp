@@ -50,7 +50,7 @@ void Stats::add(const std::string& name, const pimg::ProgressiveImage& image)
 {
     add(Stage::read, image.stats().read_seconds);
     add(Stage::luminance, image.stats().guide_seconds);
-    add(Stage::build, image.stats().simplify_seconds);
+    add(Stage::build, image.stats().sample_seconds + image.stats().simplify_seconds);
 
     const pimg::Hierarchy& hierarchy = image.hierarchy();
     const OIIO::ImageSpec& spec = image.spec();
@@ -63,8 +63,10 @@ void Stats::add(const std::string& name, const pimg::ProgressiveImage& image)
     figures.guide = image.stats().guide;
     figures.vertices = hierarchy.vertices();
     figures.splits = hierarchy.levels();
-    // A split always adds one vertex, and two faces or, on the border, one; the finest mesh is the pixel grid.
-    figures.faces = 2 * std::size_t(hierarchy.mesh_width() - 1) * std::size_t(hierarchy.mesh_height() - 1);
+    // A split adds two faces or, on the border, one.
+    figures.faces = hierarchy.base_triangles.size();
+    for (const pimg::Split& split : hierarchy.splits)
+        figures.faces += split.vl == pimg::kGhost || split.vr == pimg::kGhost ? 1 : 2;
     figures.base_vertices = hierarchy.base_vertices();
     figures.base_faces = hierarchy.base_triangles.size();
     figures.bytes = hierarchy.memory();

@@ -109,7 +109,7 @@ Status analyse(const Hierarchy& h, const std::vector<const float*>& channels, st
     }
     for (std::size_t c = 0; c < channels.size(); ++c) {
         bands[c].base.assign(values[c].begin(), values[c].begin() + base);
-        values_to_details(h, bands[c]);
+        values_to_details(h, channels[c], bands[c]);
     }
     return {};
 }

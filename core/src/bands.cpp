@@ -14,7 +14,7 @@ float Bands::largest_detail() const
     return largest;
 }
 
-void values_to_details(const Hierarchy& h, Bands& bands)
+void values_to_details(const Hierarchy& h, const float* samples, Bands& bands)
 {
     std::vector<float> values(h.vertices());
     std::vector<Detail>& details = bands.details;
@@ -26,6 +26,13 @@ void values_to_details(const Hierarchy& h, Bands& bands)
         details[i] = { details[i].t - t, details[i].u - u };
         return details[i];
     });
+    bands.residual.clear();
+    if (h.between.empty())
+        return;
+    bands.residual.resize(h.mesh_pixels());
+    scatter(h, values.data(), bands.residual.data());
+    for (std::size_t p = 0; p < bands.residual.size(); ++p)
+        bands.residual[p] = samples[p] - bands.residual[p];
 }
 
 std::vector<float> to_mesh_pixels(const Hierarchy& h, const float* samples)
@@ -67,17 +74,28 @@ Status rebase(Hierarchy& h, std::vector<Bands>& bands, Level level)
     return {};
 }
 
-void scatter(const Hierarchy& h, const float* values, float* samples)
+void scatter(const Hierarchy& h, const float* values, float* samples, const ParallelFor& parallel)
 {
+    constexpr std::size_t kBatch = 1 << 15;
     for (Index v = 0; v < h.vertices(); ++v)
         samples[h.pixels[v]] = values[v];
+    const std::size_t n = h.between.size();
+    run(parallel, (n + kBatch - 1) / kBatch, [&](std::size_t batch) {
+        const std::size_t last = std::min(n, (batch + 1) * kBatch);
+        for (std::size_t i = batch * kBatch; i < last; ++i) {
+            const PixelStencil& k = h.between[i];
+            const float a = samples[k.a];
+            samples[k.pixel] = a + (k.wb * (samples[k.b] - a) + k.wc * (samples[k.c] - a));
+        }
+    });
 }
 
-void synthesise(const Hierarchy& h, const Bands& bands, float* samples)
+void synthesise(const Hierarchy& h, const Bands& bands, float* samples, const ParallelFor& parallel)
 {
     std::vector<float> values(h.vertices());
     sweep(h, bands, values.data(), h.levels(), [](Level, Detail d) { return d; });
-    scatter(h, values.data(), samples);
+    scatter(h, values.data(), samples, parallel);
+    add_residual(bands, samples, [](Index, float r) { return r; });
 }
 
 }  // namespace pimg

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <numeric>
 
+#include "pixel_stencils.h"
+
 namespace pimg {
 
 Projection project(Point p, Point s, int degree, const Index* ring, const Point* points)
@@ -107,27 +109,42 @@ void fill_splits(const CollapseSequence& sequence, const std::vector<Index>& by_
     }
 }
 
+/// Pixels of the finest mesh: of vertices by their number, and those between.
+void fill_pixels(const Finest& finest, const std::vector<Index>& number, Hierarchy& h)
+{
+    h.pixels.resize(number.size());
+    for (Index name = 0; name < Index(number.size()); ++name)
+        h.pixels[number[name]] = finest.initial ? finest.initial->pixels[name] : name;
+    if (number.size() == h.mesh_pixels())
+        return;
+    std::vector<Triangle> triangles(finest.initial->triangles());
+    for (std::size_t e = 0; e < finest.initial->corners.size(); ++e)
+        triangles[e / 3][e % 3] = finest.initial->pixels[finest.initial->corners[e]];
+    h.between = pixel_stencils(h.mesh_width(), h.mesh_height(), h.pixels, triangles, finest.parallel);
+}
+
 }  // namespace
 
-Status assemble(int width, int height, CollapseSequence&& sequence, Index base_faces, Hierarchy& hierarchy,
-                std::vector<Bands>& bands)
+Status assemble(int width, int height, const Finest& finest, CollapseSequence&& sequence, Index base_faces,
+                Hierarchy& hierarchy, std::vector<Bands>& bands)
 {
     Hierarchy h;
     std::vector<Bands> b(std::size_t(sequence.channels));
     h.width = width;
     h.height = height;
+    std::vector<Index> number;
     {
         const CollapseSequence done = std::move(sequence);
         const std::vector<Index> by_order = sorted(done.records);
-        const std::vector<Index> number = number_names(h.mesh_pixels(), done.base, done.records, by_order);
+        const std::size_t names = finest.initial ? finest.initial->pixels.size() : h.mesh_pixels();
+        number = number_names(names, done.base, done.records, by_order);
         fill_base(done.base, number, h, b);
         fill_splits(done, by_order, number, h, b);
-        h.pixels.resize(h.mesh_pixels());
-        for (Index name = 0; name < Index(number.size()); ++name)
-            h.pixels[number[name]] = name;
     }
-    for (Bands& channel : b)
-        values_to_details(h, channel);
+    fill_pixels(finest, number, h);
+    std::vector<Index>().swap(number);
+    for (std::size_t c = 0; c < b.size(); ++c)
+        values_to_details(h, finest.guide.channels[c].samples, b[c]);
     const Level level = h.level_of_faces(base_faces);
     Status status = level > 0 ? rebase(h, b, level) : Status();
     if (status) {

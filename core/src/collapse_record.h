@@ -6,11 +6,13 @@
 
 #include <pimg/bands.h>
 #include <pimg/hierarchy.h>
+#include <pimg/sampling.h>
+#include <pimg/simplify.h>
 
 namespace pimg {
 
-/// One edge collapse in the order it was done. Vertices go by name: the mesh pixel whose
-/// vertex they started as; s keeps the name of t.
+/// One edge collapse in the order it was done. Vertices go by name: the mesh pixel, or the vertex of the initial mesh,
+/// they started as; s keeps the name of t.
 struct CollapseRecord {
     Split split;      ///< s = name of t
     Index u;          ///< name of u
@@ -36,11 +38,18 @@ struct CollapseSequence {
     std::vector<BaseVertex> base;
 };
 
+/// What the finest mesh stands for.
+struct Finest {
+    const Guide& guide;          ///< samples per mesh pixel
+    const InitialMesh* initial;  ///< tells where names are; none: names are pixels
+    const ParallelFor& parallel;
+};
+
 /// Sorts the collapses by order (any two that do not depend on each other commute), numbers the vertices by
 /// the split that makes them, turns intensities into details, and keeps the coarsest level
 /// of at least `base_faces` triangles as base mesh.
-Status assemble(int width, int height, CollapseSequence&& sequence, Index base_faces, Hierarchy& hierarchy,
-                std::vector<Bands>& bands);
+Status assemble(int width, int height, const Finest& finest, CollapseSequence&& sequence, Index base_faces,
+                Hierarchy& hierarchy, std::vector<Bands>& bands);
 
 /// Face (s, a, b) of the star of s that holds `p`, and the weights of a and b. `ring` is that of s in
 /// the coarser mesh starting with vr of the split; the first face that holds p is taken, from exact integers: everybody who

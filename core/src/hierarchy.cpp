@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "collapse_record.h"
+#include "pixel_stencils.h"
 
 namespace pimg {
 
@@ -38,7 +39,8 @@ std::size_t Hierarchy::memory() const
 {
     return base_points.capacity() * sizeof(Point) + base_triangles.capacity() * sizeof(Triangle)
            + splits.capacity() * sizeof(Split) + stencils.capacity() * sizeof(Stencil)
-           + costs.capacity() * sizeof(float) + pixels.capacity() * sizeof(Index);
+           + costs.capacity() * sizeof(float) + pixels.capacity() * sizeof(Index)
+           + between.capacity() * sizeof(PixelStencil);
 }
 
 Status refine(const Hierarchy& h, Level level, Mesh& mesh, std::vector<Point>* coarse)
@@ -87,6 +89,22 @@ bool same(const Stencil& a, const Stencil& b)
            && a.wbt == b.wbt && a.wau == b.wau && a.wbu == b.wbu;
 }
 
+bool same_pixel(const PixelStencil& a, const PixelStencil& b)
+{
+    return a.pixel == b.pixel && a.a == b.a && a.b == b.b && a.c == b.c && a.wb == b.wb && a.wc == b.wc;
+}
+
+std::vector<PixelStencil> stencils_between(const Hierarchy& h, const Mesh& finest)
+{
+    if (h.vertices() == h.mesh_pixels())
+        return {};
+    std::vector<Triangle> triangles = finest.triangles();
+    for (Triangle& t : triangles)
+        for (Index& v : t)
+            v = h.pixels[v];
+    return pixel_stencils(h.mesh_width(), h.mesh_height(), h.pixels, triangles);
+}
+
 bool is_weight_pair(float a, float b)
 {
     return a >= 0.0f && b >= 0.0f && a + b <= 1.0f + 1e-6f;
@@ -94,18 +112,31 @@ bool is_weight_pair(float a, float b)
 
 }  // namespace
 
+Status find_pixels_between(Hierarchy& h)
+{
+    h.between.clear();
+    if (h.vertices() == h.mesh_pixels())
+        return {};
+    Mesh mesh;
+    const Status status = refine(h, h.levels(), mesh);
+    if (status)
+        h.between = stencils_between(h, mesh);
+    return status;
+}
+
 Status validate(const Hierarchy& h)
 {
     const auto bad = [](const char* what, Level i) {
         return Status::failure("hierarchy: " + std::string(what) + " at split " + std::to_string(i));
     };
-    if (h.vertices() != h.mesh_pixels() || h.stencils.size() != h.splits.size()
-        || h.costs.size() != h.splits.size() || h.pixels.size() != h.vertices())
+    if (h.vertices() > h.mesh_pixels() || h.stencils.size() != h.splits.size()
+        || h.costs.size() != h.splits.size() || h.pixels.size() != h.vertices()
+        || h.between.size() != h.mesh_pixels() - h.vertices())
         return Status::failure("hierarchy: sizes do not agree");
     std::vector<bool> seen(h.mesh_pixels());
     for (Index p : h.pixels) {
         if (p >= h.mesh_pixels() || seen[p])
-            return Status::failure("hierarchy: a pixel is missing or there twice");
+            return Status::failure("hierarchy: a pixel is outside the picture or there twice");
         seen[p] = true;
     }
     Mesh mesh;
@@ -131,6 +162,9 @@ Status validate(const Hierarchy& h)
         if (mesh.point(v) != Point { x * kSubpixels, y * kSubpixels })
             return Status::failure("hierarchy: a vertex of the finest level is not on its pixel");
     }
+    const std::vector<PixelStencil> between = stencils_between(h, mesh);
+    if (!std::equal(between.begin(), between.end(), h.between.begin(), h.between.end(), same_pixel))
+        return Status::failure("hierarchy: a pixel between vertices is not interpolated in its face");
     return mesh.validate();
 }
 

@@ -27,10 +27,11 @@ constexpr float kGuards[2] = { 1e-3f, 1e-5f };
 
 class Simplifier {
 public:
-    Simplifier(const Guide& guide, const SimplifyOptions& options)
-        : m_mesh(guide), m_options(options), m_total(m_mesh.alive())
+    Simplifier(WorkingMesh&& mesh, const SimplifyOptions& options)
+        : m_mesh(std::move(mesh)), m_options(options), m_total(m_mesh.alive())
     {
-        m_sequence.channels = int(guide.channels.size());
+        m_sequence.channels = m_mesh.more_channels + 1;
+        m_sequence.records.reserve(m_total);  // growing would need twice the memory for a moment
         m_stats.peak_bytes = m_mesh.bytes();
         pimg::run(options.parallel, m_mesh.tiles.size(),
                   [&](std::size_t i) { add_up_fans(m_mesh, m_mesh.tiles[i].first, m_mesh.tiles[i].last); });
@@ -175,23 +176,31 @@ Status simplify(const Guide& guide, const SimplifyOptions& options, Hierarchy& h
     Hierarchy shape;
     shape.width = guide.width;
     shape.height = guide.height;
+    if (options.initial && options.initial->twins.size() != options.initial->corners.size())
+        return Status::failure("the initial mesh has no twins");
+    if (options.initial
+        && (options.initial->width != shape.mesh_width() || options.initial->height != shape.mesh_height()))
+        return Status::failure("the initial mesh is for a picture of another size");
     Guide on_mesh { shape.mesh_width(), shape.mesh_height(), guide.channels };
     std::vector<std::vector<float>> samples;
-    for (GuideChannel& c : on_mesh.channels) {
-        samples.push_back(to_mesh_pixels(shape, c.samples));
-        c.samples = samples.back().data();
-    }
+    if (guide.width < 2 || guide.height < 2)
+        for (GuideChannel& c : on_mesh.channels) {
+            samples.push_back(to_mesh_pixels(shape, c.samples));
+            c.samples = samples.back().data();
+        }
     CollapseSequence sequence;
     {
-        Simplifier simplifier(on_mesh, options);
-        samples.clear();
+        Simplifier simplifier(options.initial ? WorkingMesh(on_mesh, *options.initial) : WorkingMesh(on_mesh), options);
+        if (options.initial)
+            std::vector<Index>().swap(options.initial->twins);
         if (!simplifier.run())
             return Status::failure("building was stopped");
         sequence = simplifier.take_sequence();
         if (stats)
             *stats = simplifier.stats();
     }
-    return assemble(guide.width, guide.height, std::move(sequence), options.base_faces, hierarchy, bands);
+    const Finest finest { on_mesh, options.initial, options.parallel };
+    return assemble(guide.width, guide.height, finest, std::move(sequence), options.base_faces, hierarchy, bands);
 }
 
 }  // namespace pimg

@@ -20,6 +20,30 @@ std::uint32_t morton_part(std::uint64_t code)
     return part;
 }
 
+/// A finest tile: its place in the grid and its pixels, half open.
+struct PixelTile {
+    std::uint32_t x, y;
+    int x0, y0, x1, y1;
+};
+
+/// Visits the finest tiles in Morton order.
+template<class Visit>
+void for_tiles(int width, int height, Visit&& visit)
+{
+    constexpr int kTile = WorkingMesh::kTile;
+    const std::uint32_t across = std::uint32_t((width + kTile - 1) / kTile);
+    const std::uint32_t down = std::uint32_t((height + kTile - 1) / kTile);
+    std::uint32_t side = 1;
+    while (side < std::max(across, down))
+        side *= 2;
+    for (std::uint64_t code = 0; code < std::uint64_t(side) * side; ++code) {
+        const std::uint32_t x = morton_part(code), y = morton_part(code >> 1);
+        if (x < across && y < down)
+            visit(PixelTile { x, y, int(x) * kTile, int(y) * kTile, std::min(width, int(x + 1) * kTile),
+                              std::min(height, int(y + 1) * kTile) });
+    }
+}
+
 /// Whether quad (x, y)..(x + 1, y + 1) is cut from upper left to lower right: along the smaller jump.
 bool falling_diagonal(const Guide& guide, int x, int y)
 {
@@ -37,36 +61,110 @@ bool falling_diagonal(const Guide& guide, int x, int y)
 WorkingMesh::WorkingMesh(const Guide& guide) : more_channels(int(guide.channels.size()) - 1)
 {
     const std::size_t n = std::size_t(guide.width) * std::size_t(guide.height);
-    nodes.resize(n);
-    rings.resize(n);
-    keys.assign(n, 0.0f);
-    more.resize(n * std::size_t(more_channels));
-    for (const GuideChannel& c : guide.channels)
-        weights.push_back(c.weight);
-    m_alive = Index(n);
+    allocate(guide, n);
     std::vector<Index> number_of(n);
     number_vertices(guide.width, guide.height, number_of);
     build_rings(guide, number_of);
 }
 
+WorkingMesh::WorkingMesh(const Guide& guide, const InitialMesh& initial)
+    : more_channels(int(guide.channels.size()) - 1)
+{
+    allocate(guide, initial.pixels.size());
+    std::vector<Index> number_of(initial.pixels.size());
+    number_vertices(initial, number_of);
+    for (Index v = 0; v < initial.vertices(); ++v)
+        place(number_of[v], guide, initial.pixels[v], v);
+    build_rings(initial, number_of);
+    merge_small_tiles();
+}
+
+void WorkingMesh::allocate(const Guide& guide, std::size_t vertices)
+{
+    nodes.resize(vertices);
+    rings.resize(vertices);
+    keys.assign(vertices, 0.0f);
+    more.resize(vertices * std::size_t(more_channels));
+    for (const GuideChannel& c : guide.channels)
+        weights.push_back(c.weight);
+    m_alive = Index(vertices);
+}
+
 void WorkingMesh::number_vertices(int width, int height, std::vector<Index>& number_of)
 {
-    const std::uint32_t across = std::uint32_t((width + kTile - 1) / kTile);
-    const std::uint32_t down = std::uint32_t((height + kTile - 1) / kTile);
-    std::uint32_t side = 1;
-    while (side < std::max(across, down))
-        side *= 2;
     Index next = 0;
-    for (std::uint64_t code = 0; code < std::uint64_t(side) * side; ++code) {
-        const std::uint32_t tx = morton_part(code), ty = morton_part(code >> 1);
-        if (tx >= across || ty >= down)
-            continue;
+    for_tiles(width, height, [&](const PixelTile& t) {
         const Index first = next;
-        const int x1 = std::min(width, int(tx + 1) * kTile), y1 = std::min(height, int(ty + 1) * kTile);
-        for (int y = int(ty) * kTile; y < y1; ++y)
-            for (int x = int(tx) * kTile; x < x1; ++x)
+        for (int y = t.y0; y < t.y1; ++y)
+            for (int x = t.x0; x < t.x1; ++x)
                 number_of[std::size_t(y) * std::size_t(width) + std::size_t(x)] = next++;
-        tiles.push_back({ first, next, tx, ty });
+        tiles.push_back({ first, next, t.x, t.y });
+    });
+}
+
+void WorkingMesh::number_vertices(const InitialMesh& initial, std::vector<Index>& number_of)
+{
+    // Vertices are in row order: one reader per row of the current tile row would do, but rows are visited once per
+    // tile, so each row remembers how far it has been read.
+    const std::size_t height = std::size_t(initial.height), width = std::size_t(initial.width);
+    std::vector<Index> row_start(height + 1, initial.vertices());
+    for (Index v = initial.vertices(); v-- > 0;)
+        row_start[initial.pixels[v] / width] = v;
+    for (std::size_t y = height; y-- > 0;)
+        row_start[y] = std::min(row_start[y], row_start[y + 1]);
+    Index next = 0;
+    for_tiles(initial.width, initial.height, [&](const PixelTile& t) {
+        const Index first = next;
+        for (int y = t.y0; y < t.y1; ++y) {
+            const std::size_t row = std::size_t(y) * width;
+            const auto begin = initial.pixels.begin() + row_start[std::size_t(y)];
+            const auto end = initial.pixels.begin() + row_start[std::size_t(y) + 1];
+            for (auto p = std::lower_bound(begin, end, Index(row + std::size_t(t.x0)));
+                 p != end && *p < row + std::size_t(t.x1); ++p)
+                number_of[std::size_t(p - initial.pixels.begin())] = next++;
+        }
+        tiles.push_back({ first, next, t.x, t.y });
+    });
+}
+
+/// Fills all of a node but its ring and sums.
+void WorkingMesh::place(Index v, const Guide& guide, Index pixel, Index name)
+{
+    const int x = int(pixel % Index(guide.width)), y = int(pixel / Index(guide.width));
+    Node& node = nodes[v];
+    node.side = std::uint8_t((x == 0 || x == guide.width - 1 ? kFixedX : kFree)
+                             | (y == 0 || y == guide.height - 1 ? kFixedY : kFree));
+    node.p = { x * kSubpixels, y * kSubpixels };
+    node.z = guide.channels[0].samples[pixel];
+    for (int c = 0; c < more_channels; ++c)
+        more_of(v)[c].value = guide.channels[std::size_t(c) + 1].samples[pixel];
+    node.name = name;
+    node.order = 0.0f;
+    node.home = { std::uint16_t(x / kBlock), std::uint16_t(y / kBlock) };
+}
+
+void WorkingMesh::build_rings(const InitialMesh& initial, const std::vector<Index>& number_of)
+{
+    const auto around = [](Index e, Index step) { return e - e % 3 + (e + step) % 3; };
+    for (Index e = 0; e < Index(initial.corners.size()); ++e) {
+        const Index v = number_of[initial.corners[e]];
+        if (nodes[v].degree > 0 && initial.twins[e] != kGhost)
+            continue;  // done already, and this is not the edge a border vertex starts at
+        Ring& ring = rings[v];
+        int degree = 0;
+        for (Index edge = e;;) {
+            ring.v[std::size_t(degree++)] = number_of[initial.corners[around(edge, 1)]];
+            const Index last = around(edge, 2), twin = initial.twins[last];
+            if (twin == kGhost) {
+                ring.v[std::size_t(degree++)] = number_of[initial.corners[last]];
+                ring.v[std::size_t(degree++)] = kGhost;
+                break;
+            }
+            if (twin == e)
+                break;
+            edge = twin;
+        }
+        nodes[v].degree = std::uint8_t(degree);
     }
 }
 
@@ -79,7 +177,6 @@ void WorkingMesh::build_rings(const Guide& guide, const std::vector<Index>& numb
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const std::size_t pixel = std::size_t(y) * std::size_t(width) + std::size_t(x);
-            Node& node = nodes[number_of[pixel]];
             Ring& ring = rings[number_of[pixel]];
             int degree = 0;
             for (int k = 0; k < 8; ++k) {
@@ -96,16 +193,8 @@ void WorkingMesh::build_rings(const Guide& guide, const std::vector<Index>& numb
                     continue;
                 ring.v[std::size_t(degree++)] = number_of[std::size_t(qy) * std::size_t(width) + std::size_t(qx)];
             }
-            node.degree = std::uint8_t(degree);
-            node.side = std::uint8_t((x == 0 || x == width - 1 ? kFixedX : kFree)
-                                     | (y == 0 || y == height - 1 ? kFixedY : kFree));
-            node.p = { x * kSubpixels, y * kSubpixels };
-            node.z = guide.channels[0].samples[pixel];
-            for (int c = 0; c < more_channels; ++c)
-                more_of(number_of[pixel])[c].value = guide.channels[std::size_t(c) + 1].samples[pixel];
-            node.name = Index(pixel);
-            node.order = 0.0f;
-            node.home = { std::uint16_t(x / kBlock), std::uint16_t(y / kBlock) };
+            place(number_of[pixel], guide, Index(pixel), Index(pixel));
+            nodes[number_of[pixel]].degree = std::uint8_t(degree);
         }
 }
 
@@ -155,6 +244,11 @@ void WorkingMesh::compact_if_sparse()
             Index& q = rings[v].v[std::size_t(j)];
             q = q == kGhost ? kGhost : number_of[q];
         }
+    merge_small_tiles();
+}
+
+void WorkingMesh::merge_small_tiles()
+{
     while (tiles.size() > 1 && m_alive / Index(tiles.size()) < kSmallTile)
         merge_tiles();
 }

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include <pimg/ring.h>
+#include <pimg/sampling.h>
+#include <pimg/sampling.h>
 #include <pimg/simplify.h>
 
 #include "collapse_cost.h"
@@ -23,7 +25,7 @@ struct alignas(64) Node {
     FanSums sums;         ///< of its fan, origin at the vertex
     float z;              ///< intensity
     Point p;              ///< position
-    Index name;           ///< mesh pixel of the vertex whose number it keeps
+    Index name;           ///< name of the vertex whose number it keeps: its mesh pixel, or its place in the initial mesh
     float order;          ///< cost of its last collapse, made monotone along dependencies
     Home home;
     std::uint8_t degree;  ///< 0: merged into another
@@ -61,6 +63,9 @@ public:
     /// add_up_fans().
     explicit WorkingMesh(const Guide& guide);
 
+    /// The vertices and triangles of `initial`, which must not exceed kMaxDegree. A vertex takes the samples of its pixel.
+    WorkingMesh(const Guide& guide, const InitialMesh& initial);
+
     ChannelSums* more_of(Index v) { return more.data() + std::size_t(v) * std::size_t(more_channels); }
 
     Index alive() const { return m_alive; }
@@ -78,9 +83,14 @@ public:
     }
 
 private:
+    void allocate(const Guide& guide, std::size_t vertices);
     void number_vertices(int width, int height, std::vector<Index>& number_of);
+    void number_vertices(const InitialMesh& initial, std::vector<Index>& number_of);
+    void place(Index v, const Guide& guide, Index pixel, Index name);
     void build_rings(const Guide& guide, const std::vector<Index>& number_of);
+    void build_rings(const InitialMesh& initial, const std::vector<Index>& number_of);
     void merge_tiles();
+    void merge_small_tiles();
 
     Index m_alive = 0;
     std::uint32_t m_blocks_per_tile = 2;

@@ -64,4 +64,17 @@ void compress(const Hierarchy& hierarchy, const Bands& bands, const DetailGain& 
     }
 }
 
+void compress_residual(const Hierarchy& hierarchy, const Bands& bands, const DetailGain& gain, float coherence,
+                       const std::vector<float>& picture, std::vector<float>& compressed)
+{
+    if (bands.residual.empty())
+        return;
+    // At the vertices the residual is rounding only.
+    for (const PixelStencil& k : hierarchy.between) {
+        const float r = bands.residual[k.pixel];
+        const auto [least, most] = std::minmax({ picture[k.a], picture[k.b], picture[k.c] });
+        compressed[k.pixel] += gain(std::max(std::fabs(r), coherence * (most - least))) * r;
+    }
+}
+
 }  // namespace pimg

@@ -28,4 +28,9 @@ std::vector<float> contrast_envelope(const Hierarchy& hierarchy, const Bands& ba
 void compress(const Hierarchy& hierarchy, const Bands& bands, const DetailGain& gain,
               const std::vector<float>* envelope, float* values);
 
+/// Adds the compressed residual to the compressed finest mesh: by the gain of its own size, or of `coherence` times the span of
+/// its face if that is larger. Both rasters are of the picture's size; nothing to do without a residual.
+void compress_residual(const Hierarchy& hierarchy, const Bands& bands, const DetailGain& gain, float coherence,
+                       const std::vector<float>& picture, std::vector<float>& compressed);
+
 }  // namespace pimg

@@ -30,7 +30,9 @@ std::vector<float> enhanced(const ProgressiveImage::Data& data, int channel, con
     sweep_from(data.hierarchy, from, values.data(), [=](Level i) {
         return i < to ? Detail { more * details[i].t, more * details[i].u } : Detail { 0.0f, 0.0f };
     });
-    std::vector<float> samples = to_picture(data.hierarchy, values.data(), exponent);
+    // The residual comes after the last split.
+    const std::vector<float>* residual = to == data.hierarchy.levels() ? &bands.residual : nullptr;
+    std::vector<float> samples = to_picture(data.hierarchy, values.data(), exponent, residual, more);
     const float* p = static_cast<const float*>(data.source.localpixels()) + channel;
     for (float& sample : samples) {
         sample += *p;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Feature-preserving low-pass (paper, section 4.1): the details of all but the first splits are left out.
+// Feature-preserving low-pass (paper, section 4.1): the details of all but the first splits are left out, and the
+// residual, the finest band, unless nothing is.
 #include <pimg/imagebufalgo.h>
 
 #include <cmath>
@@ -28,7 +29,7 @@ std::vector<float> lowpass(const Hierarchy& hierarchy, const Bands& bands, Level
     sweep(hierarchy, bands, values.data(), hierarchy.levels(), [kept](Level i, Detail d) {
         return i < kept ? d : Detail { 0.0f, 0.0f };
     });
-    return to_picture(hierarchy, values.data(), exponent);
+    return to_picture(hierarchy, values.data(), exponent, kept == hierarchy.levels() ? &bands.residual : nullptr);
 }
 
 }  // namespace

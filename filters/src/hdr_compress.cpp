@@ -67,6 +67,7 @@ bool compress_luminance(ProgressiveImage::Data& data, const ParallelFor& paralle
     else
         compress(data.hierarchy, *log->bands, gain, nullptr, values.data());
     c.samples = to_picture(data.hierarchy, values.data());
+    compress_residual(data.hierarchy, *log->bands, gain, options.coherence, log->luminance.guide.samples, c.samples);
     if (options.fit)
         find_fit(c, parallel);
     return true;

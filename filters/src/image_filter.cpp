@@ -87,10 +87,14 @@ void write_channels(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, OII
     });
 }
 
-std::vector<float> to_picture(const Hierarchy& hierarchy, const float* values, int exponent)
+std::vector<float> to_picture(const Hierarchy& hierarchy, const float* values, int exponent,
+                              const std::vector<float>* residual, float factor)
 {
     std::vector<float> samples(hierarchy.mesh_pixels());
     scatter(hierarchy, values, samples.data());
+    if (residual != nullptr)
+        for (std::size_t i = 0; i < residual->size(); ++i)
+            samples[i] += factor * (*residual)[i];
     crop_to_picture(hierarchy, samples);
     if (exponent != 0)
         for (float& sample : samples)

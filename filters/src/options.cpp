@@ -183,6 +183,10 @@ const std::vector<Option<BuildOptions>>& option_table<BuildOptions>()
         { &T::incolorspace,
           { "incolorspace", 0, 0, "", "",
             "colour space of the picture; its metadata, else sRGB for 8 bit, else linear" } },
+        { &T::mesh, { "mesh", 0, 0, "", "full|adaptive", "a vertex for every pixel, or fewer: faster, still exact" } },
+        { &T::density, { "density", 1e-6, 1, "", "", "share of the pixels an adaptive mesh keeps" } },
+        { &T::control,
+          { "control", 0, 0, "", "", "what density follows: gradient, curvature, or an image file" } },
     };
     return table;
 }

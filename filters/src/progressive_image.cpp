@@ -46,9 +46,35 @@ std::vector<float> mesh_samples(const ProgressiveImage::Data& data, int channel,
     return to_mesh_pixels(data.hierarchy, samples.data());
 }
 
+/// Brightness of an image file of the guide's size: the mean of its colour channels.
+bool read_control_map(const std::string& filename, const Guide& guide, std::vector<float>& map, std::string& error)
+{
+    OIIO::ImageBuf file(filename);
+    if (!file.read(0, 0, true, OIIO::TypeDesc::FLOAT)) {
+        error = "control=\"" + filename + "\": expected gradient, curvature or an image file: " + file.geterror();
+        return false;
+    }
+    const OIIO::ImageSpec& spec = file.spec();
+    if (spec.width != guide.width || spec.height != guide.height) {
+        error = "control=\"" + filename + "\": expected an image of the picture's size";
+        return false;
+    }
+    const int colours = std::min(spec.nchannels, 3);
+    map.resize(spec.image_pixels());
+    const float* p = static_cast<const float*>(file.localpixels());
+    for (float& value : map) {
+        value = 0.0f;
+        for (int c = 0; c < colours; ++c)
+            value += p[c];
+        p += spec.nchannels;
+    }
+    return true;
+}
+
 std::size_t bytes(const Bands& bands)
 {
-    return bands.base.capacity() * sizeof(float) + bands.details.capacity() * sizeof(Detail);
+    return (bands.base.capacity() + bands.residual.capacity()) * sizeof(float)
+           + bands.details.capacity() * sizeof(Detail);
 }
 
 }  // namespace
@@ -84,6 +110,29 @@ bool ProgressiveImage::Data::read(const OIIO::ImageBuf& src, std::string& error)
     return Colour::resolve(stored, options.incolorspace, colour, error);
 }
 
+/// Leaves `mesh` empty if every pixel is to be a vertex.
+bool ProgressiveImage::Data::find_initial_mesh(const Guide& guide, const ParallelFor& parallel,
+                                               const Progress& progress, InitialMesh& mesh, std::string& error) const
+{
+    if (options.mesh != "adaptive" || guide.width < 2 || guide.height < 2)
+        return true;
+    SamplingOptions sampling;
+    sampling.density = double(options.density);
+    sampling.control = options.control == "curvature" ? Control::curvature : Control::gradient;
+    sampling.parallel = parallel;
+    if (progress)
+        sampling.progress = [&](float) { return progress(0.0f); };
+    std::vector<float> map;
+    if (options.control != "gradient" && options.control != "curvature") {
+        if (!read_control_map(options.control, guide, map, error))
+            return false;
+        sampling.map = map.data();
+    }
+    const Status status = sample(guide, sampling, mesh);
+    error = status.error();
+    return status.ok();
+}
+
 bool ProgressiveImage::Data::simplify_guide(const ParallelFor& parallel, const Progress& progress, std::string& error)
 {
     Stopwatch watch;
@@ -101,14 +150,20 @@ bool ProgressiveImage::Data::simplify_guide(const ParallelFor& parallel, const P
     }
     stats.guide_seconds = watch.lap();
 
+    Guide guide { channels[0].width, channels[0].height, {} };
+    for (const Raster& channel : channels)
+        guide.channels.push_back({ channel.samples.data() });
+    InitialMesh initial;
+    if (!find_initial_mesh(guide, parallel, progress, initial, error))
+        return false;
+    stats.sample_seconds = watch.lap();
+
     SimplifyOptions simplify_options;
     simplify_options.base_faces = Index(options.base);
     simplify_options.parallel = parallel;
     simplify_options.progress = progress;
-    std::vector<Bands> bands;
-    Guide guide { channels[0].width, channels[0].height, {} };
-    for (const Raster& channel : channels)
-        guide.channels.push_back({ channel.samples.data() });
+    if (initial.vertices() > 0)
+        simplify_options.initial = &initial;
     const Status status = simplify(guide, simplify_options, hierarchy, guide_bands, &stats.engine);
     error = status.error();
     stats.simplify_seconds = watch.lap();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <pimg/progressive_image.h>
+#include <pimg/sampling.h>
 
 #include "guide.h"
 
@@ -47,6 +48,8 @@ struct ProgressiveImage::Data {
 
     /// The steps of build().
     bool read(const OIIO::ImageBuf& src, std::string& error);
+    bool find_initial_mesh(const Guide& guide, const ParallelFor& parallel, const Progress& progress, InitialMesh& mesh,
+                           std::string& error) const;
     bool simplify_guide(const ParallelFor& parallel, const Progress& progress, std::string& error);
 
 private:

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pimg/simplify.h>
 
-#include <atomic>
 #include <cstring>
-#include <thread>
 
 #include <gtest/gtest.h>
 
 #include <pimg/rasterize.h>
 
 #include "core/pictures.h"
+#include "core/threads.h"
 
 namespace pimg {
 namespace {
@@ -30,22 +29,6 @@ Built build(const Picture& p, const SimplifyOptions& options = {})
     if (s)
         b.bands = bands[0];
     return b;
-}
-
-/// A pool that hands out the work in an order of its own.
-ParallelFor threads(unsigned count)
-{
-    return [count](std::size_t n, const std::function<void(std::size_t)>& body) {
-        std::atomic<std::size_t> next { 0 };
-        std::vector<std::thread> pool;
-        for (unsigned t = 0; t < count; ++t)
-            pool.emplace_back([&] {
-                for (std::size_t i = next++; i < n; i = next++)
-                    body(n - 1 - i);
-            });
-        for (std::thread& t : pool)
-            t.join();
-    };
 }
 
 template<class T>
@@ -158,7 +141,7 @@ TEST(Simplify, ThreadsDoNotChangeTheHierarchy)
     const Built one = build(p);
     for (unsigned count : { 2u, 3u, 8u, 16u }) {
         SimplifyOptions options;
-        options.parallel = threads(count);
+        options.parallel = test::threads(count);
         const Built many = build(p, options);
         EXPECT_TRUE(same_bytes(one.hierarchy.stencils, many.hierarchy.stencils));
         EXPECT_TRUE(same_bytes(one.hierarchy.splits, many.hierarchy.splits));

@@ -16,12 +16,14 @@ struct Detail {
 };
 
 /// One channel on a hierarchy. `base[v]` are the values of the base vertices,
-/// `details[i]` belong to split i.
+/// `details[i]` belong to split i. The residual is the finest band: what the Gouraud image of the finest mesh
+/// leaves of the channel, per mesh pixel; empty (all 0) when every pixel is a vertex.
 struct Bands {
     std::vector<float> base;
     std::vector<Detail> details;
+    std::vector<float> residual;
 
-    /// Largest |detail|, 0 for none.
+    /// Largest |detail| of all splits, 0 for none.
     float largest_detail() const;
 };
 
@@ -47,15 +49,21 @@ std::vector<float> values_at(const Hierarchy& hierarchy, const Bands& bands, Lev
 template<class Gain>
 void sweep(const Hierarchy& hierarchy, const Bands& bands, float* values, Level levels, Gain&& gain);
 
-/// The same at the finest level without a gain, written to the mesh pixels (row-major).
-void synthesise(const Hierarchy& hierarchy, const Bands& bands, float* samples);
+/// The same at the finest level without a gain, written to the mesh pixels (row-major), and the residual.
+void synthesise(const Hierarchy& hierarchy, const Bands& bands, float* samples, const ParallelFor& parallel = {});
 
-/// Moves values from vertex order to mesh pixels (row-major).
-void scatter(const Hierarchy& hierarchy, const float* values, float* samples);
+/// Moves values of the finest level from vertex order to mesh pixels (row-major), and interpolates the
+/// pixels between them: the Gouraud image of the finest mesh.
+void scatter(const Hierarchy& hierarchy, const float* values, float* samples, const ParallelFor& parallel = {});
 
-/// Turns details that hold the true values of t and u into details proper. Done against the
-/// values synthesis will have at each level, so that no rounding adds up over the levels.
-void values_to_details(const Hierarchy& hierarchy, Bands& bands);
+/// Adds gain(pixel, residual) to the samples of all mesh pixels; nothing without a residual.
+template<class Gain>
+void add_residual(const Bands& bands, float* samples, Gain&& gain);
+
+/// Turns details that hold the true values of t and u into details proper, and fills the residual from the channel's
+/// samples (per mesh pixel). Done against the values synthesis will have at each level, so that no
+/// rounding adds up over the levels.
+void values_to_details(const Hierarchy& hierarchy, const float* samples, Bands& bands);
 
 template<class Gain>
 void sweep(const Hierarchy& hierarchy, const Bands& bands, float* values, Level levels, Gain&& gain)
@@ -73,6 +81,14 @@ void sweep(const Hierarchy& hierarchy, const Bands& bands, float* values, Level 
         values[base + i] = s + (k.wau * (values[k.au] - s) + k.wbu * (values[k.bu] - s)) + d.u;
         values[k.s] = t;
     }
+}
+
+template<class Gain>
+void add_residual(const Bands& bands, float* samples, Gain&& gain)
+{
+    const std::size_t n = bands.residual.size();
+    for (std::size_t p = 0; p < n; ++p)
+        samples[p] += gain(Index(p), bands.residual[p]);
 }
 
 }  // namespace pimg

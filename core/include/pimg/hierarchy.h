@@ -29,6 +29,14 @@ struct Stencil {
     float wat, wbt, wau, wbu;
 };
 
+/// A pixel that is no vertex of the finest mesh: the mesh pixels of its face's corners there, the smallest
+/// first, and the barycentric weights of the other two.
+///     interpolation = z[a] + wb (z[b] - z[a]) + wc (z[c] - z[a])
+struct PixelStencil {
+    Index pixel, a, b, c;
+    float wb, wc;
+};
+
 /// Level of a hierarchy: the number of splits applied to the base mesh.
 using Level = Index;
 
@@ -41,6 +49,7 @@ public:
     std::vector<Stencil> stencils;        ///< of each split
     std::vector<float> costs;             ///< volume error each split removes; never increases
     std::vector<Index> pixels;            ///< mesh pixel (row-major) each vertex is at the finest level
+    std::vector<PixelStencil> between;    ///< the other pixels, increasing: none unless the initial mesh was a simpler one
 
     Index base_vertices() const { return Index(base_points.size()); }
     Level levels() const { return Level(splits.size()); }
@@ -66,6 +75,9 @@ public:
 /// The mesh M_i with its topology: replays the first `level` splits. `coarse`, if given, receives where the
 /// split vertex s of each was before it. Fails only on a damaged hierarchy.
 Status refine(const Hierarchy& hierarchy, Level level, Mesh& mesh, std::vector<Point>* coarse = nullptr);
+
+/// Fills `between` from all else: for who reads a hierarchy from a file. Fails only on a damaged hierarchy.
+Status find_pixels_between(Hierarchy& hierarchy);
 
 /// Checks numbers, stencils and, by replaying every split, topology. Slow: for tests and tools.
 Status validate(const Hierarchy& hierarchy);

@@ -1,38 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Builds a hierarchy: full-edge collapses by memoryless volume optimisation (Lindstrom & Turk 1998,
-// 1999; paper, section 3.2) from one vertex per pixel down to a base mesh.
+// 1999; paper, section 3.2) from one vertex per pixel, or a simpler initial mesh, down to a base mesh.
 #pragma once
 
 #include <vector>
 
 #include <pimg/bands.h>
+#include <pimg/guide.h>
 #include <pimg/hierarchy.h>
+#include <pimg/sampling.h>
 #include <pimg/types.h>
 
 namespace pimg {
 
-/// Most channels that may decide the geometry together.
-constexpr int kMaxGuideChannels = 16;
-
-/// One of the channels that decide the geometry: finite samples, one per pixel, row-major. One unit is about one
-/// step of an 8-bit picture: |samples| should be of the order of 255 so that noise and features are told apart
-/// on the right scale.
-struct GuideChannel {
-    const float* samples = nullptr;
-    float weight = 1.0f;  ///< of its volume error in the cost, > 0
-};
-
-/// What decides the geometry. With several channels each keeps its own volume, so its own intensity follows from the
-/// position, and the one position they share minimises the weighted sum of their volume errors.
-struct Guide {
-    int width = 0, height = 0;
-    std::vector<GuideChannel> channels;
-};
-
 struct SimplifyOptions {
-    Index base_faces = 128;  ///< triangles of the base mesh; 2 (the four corners) or more
-    ParallelFor parallel;    ///< threads to use; the result does not depend on them
+    Index base_faces = 128;                ///< triangles of the base mesh; 2 (the four corners) or more
+    ParallelFor parallel;                  ///< threads to use; the result does not depend on them
     Progress progress;
+    InitialMesh* initial = nullptr;  ///< mesh to start from (sampling.h), whose twins are given up as soon as they have been
+                                     ///< read, to save memory; none: one vertex per pixel
 };
 
 /// What building returns besides the hierarchy.

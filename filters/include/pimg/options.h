@@ -72,6 +72,9 @@ struct BuildOptions {
     int base = 128;            ///< faces of the base mesh
     std::string incolorspace;  ///< colour space of the picture; empty: its oiio:ColorSpace, else sRGB for 8 bit,
                                ///< else scene-linear
+    std::string mesh = "full";         ///< full: one vertex per pixel; adaptive: fewer, and a residual (section 6)
+    float density = 0.33f;             ///< share of the pixels an adaptive mesh keeps
+    std::string control = "gradient";  ///< what its density follows: gradient, curvature, or an image file's brightness
 };
 
 /// Which level M_i to show: at most one may be set; none means the finest.

@@ -19,6 +19,7 @@ namespace pimg {
 struct BuildStats {
     double read_seconds = 0.0;      ///< copying the picture as float
     double guide_seconds = 0.0;     ///< luminance and logarithm
+    double sample_seconds = 0.0;    ///< the initial mesh, if adaptive
     double simplify_seconds = 0.0;  ///< the hierarchy
     std::string guide;              ///< the one used: luma, log or rgb
     SimplifyStats engine;
