@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "collapse_metric.h"
 #include "collapse_record.h"
 #include "tile_worker.h"
 #include "working_mesh.h"
@@ -182,7 +183,15 @@ Status simplify(const Guide& guide, const SimplifyOptions& options, Hierarchy& h
         c.samples = samples.back().data();
     }
     CollapseSequence sequence;
-    {
+    if (options.metric != Metric::volume) {
+        PlainMesh mesh(on_mesh);
+        SimplifyStats counted;
+        const auto metric = options.metric == Metric::quadric ? quadric_metric(mesh) : exact_metric(mesh);
+        if (!collapse_all(mesh, *metric, options.progress, sequence, counted))
+            return Status::failure("building was stopped");
+        if (stats)
+            *stats = counted;
+    } else {
         Simplifier simplifier(on_mesh, options);
         samples.clear();
         if (!simplifier.run())

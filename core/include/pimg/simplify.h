@@ -29,8 +29,17 @@ struct Guide {
     std::vector<GuideChannel> channels;
 };
 
+/// What a collapse costs and where it puts the vertex. The last two are slower and worse; they are there for comparison
+/// (paper, Fig. 2), use one thread, and do not preserve the volume.
+enum class Metric {
+    volume,   ///< memoryless volume optimisation (Lindstrom & Turk 1998, 1999)
+    quadric,  ///< squared distance to all planes merged so far (Garland & Heckbert 1997)
+    exact,    ///< largest deviation from any pixel, half-edge collapse
+};
+
 struct SimplifyOptions {
     Index base_faces = 128;  ///< triangles of the base mesh; 2 (the four corners) or more
+    Metric metric = Metric::volume;
     ParallelFor parallel;    ///< threads to use; the result does not depend on them
     Progress progress;
 };
