@@ -2,6 +2,7 @@
 // pimgtool: progressive images on the command line. arguments -> program -> steps on a stack of pictures.
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 
@@ -51,6 +52,8 @@ bool answer(const std::vector<std::string>& arguments, int& status)
 
 int run(const Program& program)
 {
+    if (!std::getenv("OPENIMAGEIO_DEBUG"))
+        OIIO::attribute("debug", 0);  // Debian's library talks on standard error otherwise
     OIIO::attribute("threads", program.threads);
     OIIO::attribute("exr_threads", program.threads);
     Session session;

@@ -60,7 +60,7 @@ void Stats::add(const std::string& name, const pimg::ProgressiveImage& image)
     figures.height = spec.height;
     figures.channels = spec.nchannels;
     figures.type = spec.format.c_str();
-    figures.guide = image.stats().log_guide ? "log" : "luma";
+    figures.guide = image.stats().guide;
     figures.vertices = hierarchy.vertices();
     figures.splits = hierarchy.levels();
     // A split always adds one vertex, and two faces or, on the border, one; the finest mesh is the pixel grid.

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the samples of a picture mean: which channels are colour, their luminance, how they are decoded
+// to linear light, and the logarithm. OpenColorIO is used here and nowhere else.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include <OpenImageIO/imageio.h>
+
+namespace pimg {
+
+/// log2 of `count` positive numbers in place, and its inverse, by processors of OpenColorIO that are built once.
+/// Numbers below 2^-126 count as 2^-126.
+void log2_in_place(float* values, std::size_t count);
+void exp2_in_place(float* values, std::size_t count);
+
+/// The colour of one picture. Immutable; may be shared between threads.
+class Colour {
+public:
+    /// Finds out from, in this order: `space` (the option incolorspace), the attribute oiio:ColorSpace if it says more
+    /// than "linear", the attribute chromaticities of OpenEXR, sRGB for 8-bit samples, and else scene-linear.
+    /// Names are looked up in the configuration of $OCIO when that is set, then among the engine's own:
+    /// linear, srgb, rec709, gammaX.Y, acescg, aces2065-1 and their usual aliases. Scene-linear is the role of that name in the
+    /// configuration of $OCIO, and Rec. 709 without one.
+    /// Fails when `space` is unknown or $OCIO cannot be read.
+    static bool resolve(const OIIO::ImageSpec& spec, const std::string& space, Colour& colour, std::string& error);
+
+    /// Colour channels: R, G and B if the picture has channels so named, else the first three that are neither alpha
+    /// nor depth. Everything else is never filtered.
+    int count() const { return m_count; }
+    int channel(int i) const { return m_channels[std::size_t(i)]; }
+    bool is_colour(int channel) const;
+
+    /// Whether samples must be decoded to become linear light.
+    bool encoded() const { return m_decoder != nullptr; }
+    /// Decodes `count` RGB triples in place; nothing to do for linear samples.
+    void decode(float* rgb, std::size_t count) const;
+
+    /// Relative luminance of linear RGB: the Y of its primaries. Never below 3 % of the largest channel, so
+    /// that colours outside the gamut, whose Y may vanish or be negative, keep a finite ratio to it.
+    float luminance(const float* rgb) const
+    {
+        const float y = m_weights[0] * rgb[0] + m_weights[1] * rgb[1] + m_weights[2] * rgb[2];
+        const float most = rgb[0] > rgb[1] ? rgb[0] : rgb[1];
+        const float floor = 0.03f * (most > rgb[2] ? most : rgb[2]);
+        return y < floor ? floor : y;
+    }
+    const std::array<float, 3>& weights() const { return m_weights; }
+
+    /// Name of the space decoded samples are in, for oiio:ColorSpace.
+    const std::string& linear_name() const { return m_linear_name; }
+
+    struct Decoder;
+
+private:
+    std::array<float, 3> m_weights { 0.2126f, 0.7152f, 0.0722f };
+    std::array<int, 3> m_channels { 0, 0, 0 };
+    int m_count = 0;
+    std::shared_ptr<const Decoder> m_decoder;
+    std::string m_linear_name = "Linear";
+
+    friend struct ColourFinder;
+};
+
+}  // namespace pimg

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Filters on progressive images, in the manner of OpenImageIO's ImageBufAlgo. Rules common to all functions; what is
+// said at each function below are exceptions and additions.
+//
+// Forms     Each filter has four: the result goes to `dst` or is returned; the source is a picture, whose hierarchy is then
+//           built with default BuildOptions, or a ProgressiveImage, so that further parameters cost one sweep.
+// Errors    The dst form returns false and leaves a message in dst.geterror(); the other returns a picture
+//           with has_error(). Nothing is thrown. Deep images, volumes, and empty pictures are refused.
+// Source    Any pixel type, any number of channels, any data window; read as float, in memory or in an ImageCache. It may be `dst`.
+// Result    A `dst` that is not initialized becomes a copy of the source in windows, channels and metadata, and in pixel type
+//           unless stated otherwise. One that is keeps its own, and only pixels inside `roi` and both pictures change.
+// roi       Restricts what is written, pixels and channels; undefined = all of dst, or of the source. The picture is always filtered
+//           whole, so a region's pixels are those of the whole result.
+// nthreads  0 = OpenImageIO's "threads" attribute. Never changes a bit of the result.
+// Channels  Colour channels are filtered: R, G, B by name, else the first three that are neither alpha nor
+//           depth. The others, alpha among them, are copied.
+// Alpha     Colour is worked on as stored, that is associated (premultiplied).
+// NaN, Inf  See ProgressiveImage. Filters put such samples back as they were, unless stated otherwise.
+// Options   Declared in options.h with range and default; out-of-range or non-finite values are errors.
+#pragma once
+
+#include <OpenImageIO/imagebuf.h>
+
+#include <pimg/options.h>
+#include <pimg/progressive_image.h>
+
+namespace pimg {
+namespace ImageBufAlgo {
+
+using OIIO::ImageBuf;
+using OIIO::ROI;
+
+/// Compresses a scene's range of luminance to a display's (paper, section 5.1). In log2 luminance the base is scaled by s0, and every
+/// detail d by
+///     h(d) = s0 + (1 - s0) (1 - d / dmax)^beta,      d = |detail|, at most dmax.
+/// With coherence > 0 both details of a split take h of their contrast envelope instead: the largest of the two and of
+/// `coherence` times the envelope of the coarser vertices around. That keeps small corrections beside a strong edge
+/// in step with the edge, which Eq. (2) as printed (coherence = 0) does not, and reverses gradients.
+/// Then exposure and white are fitted to the display, unless fit = 0.
+///
+/// Returns display-linear RGB, 0..1, in the source's primaries (oiio:ColorSpace says which): linear light, white at 1. Hue and saturation are
+/// those of the source. 8-bit and other encoded sources are decoded first. NaN becomes what is around it, +Inf white.
+/// With fit = 0 the result is in the units of the (decoded) source, and s0 = 1 returns the source.
+/// dst: float.
+bool hdr_compress(ImageBuf& dst, const ImageBuf& src, const HdrCompressOptions& options = {}, ROI roi = {},
+                  int nthreads = 0);
+bool hdr_compress(ImageBuf& dst, const ProgressiveImage& src, const HdrCompressOptions& options = {}, ROI roi = {},
+                  int nthreads = 0);
+ImageBuf hdr_compress(const ImageBuf& src, const HdrCompressOptions& options = {}, ROI roi = {}, int nthreads = 0);
+ImageBuf hdr_compress(const ProgressiveImage& src, const HdrCompressOptions& options = {}, ROI roi = {},
+                      int nthreads = 0);
+
+/// The options with every value that hdr_compress would find from the picture written in. A sequence
+/// rendered with those of one frame does not flicker. False, with an error, for bad options.
+bool resolve_hdr_compress(const ProgressiveImage& src, HdrCompressOptions& options, std::string& error,
+                          int nthreads = 0);
+
+/// Leaves out the details of all but the first splits: features stay, what is between them becomes
+/// linear (paper, section 4.1). All splits kept: the source.
+bool feature_lowpass(ImageBuf& dst, const ImageBuf& src, const FeatureLowpassOptions& options = {}, ROI roi = {},
+                     int nthreads = 0);
+bool feature_lowpass(ImageBuf& dst, const ProgressiveImage& src, const FeatureLowpassOptions& options = {},
+                     ROI roi = {}, int nthreads = 0);
+ImageBuf feature_lowpass(const ImageBuf& src, const FeatureLowpassOptions& options = {}, ROI roi = {},
+                         int nthreads = 0);
+ImageBuf feature_lowpass(const ProgressiveImage& src, const FeatureLowpassOptions& options = {}, ROI roi = {},
+                         int nthreads = 0);
+
+/// Multiplies the details of a range of splits by `gain` (paper, section 4.1). gain = 1: the source, bit for bit.
+/// dst: floating point; results may exceed the source's range.
+bool detail_enhance(ImageBuf& dst, const ImageBuf& src, const DetailEnhanceOptions& options = {}, ROI roi = {},
+                    int nthreads = 0);
+bool detail_enhance(ImageBuf& dst, const ProgressiveImage& src, const DetailEnhanceOptions& options = {}, ROI roi = {},
+                    int nthreads = 0);
+ImageBuf detail_enhance(const ImageBuf& src, const DetailEnhanceOptions& options = {}, ROI roi = {}, int nthreads = 0);
+ImageBuf detail_enhance(const ProgressiveImage& src, const DetailEnhanceOptions& options = {}, ROI roi = {},
+                        int nthreads = 0);
+
+/// The mesh M_i of one level as a picture: its triangles, Gouraud-shaded. NaN and Inf only come back at the finest level.
+bool level_image(ImageBuf& dst, const ImageBuf& src, const LevelOptions& options = {}, ROI roi = {}, int nthreads = 0);
+bool level_image(ImageBuf& dst, const ProgressiveImage& src, const LevelOptions& options = {}, ROI roi = {},
+                 int nthreads = 0);
+ImageBuf level_image(const ImageBuf& src, const LevelOptions& options = {}, ROI roi = {}, int nthreads = 0);
+ImageBuf level_image(const ProgressiveImage& src, const LevelOptions& options = {}, ROI roi = {}, int nthreads = 0);
+
+/// The edges of the mesh M_i, black on white (1), or with overlay drawn over level_image(): black where
+/// that is brighter than its mean, else white.
+bool wireframe(ImageBuf& dst, const ImageBuf& src, const WireframeOptions& options = {}, ROI roi = {},
+               int nthreads = 0);
+bool wireframe(ImageBuf& dst, const ProgressiveImage& src, const WireframeOptions& options = {}, ROI roi = {},
+               int nthreads = 0);
+ImageBuf wireframe(const ImageBuf& src, const WireframeOptions& options = {}, ROI roi = {}, int nthreads = 0);
+ImageBuf wireframe(const ProgressiveImage& src, const WireframeOptions& options = {}, ROI roi = {}, int nthreads = 0);
+
+/// The level the options ask for. False, with an error, if they ask for several.
+bool find_level(const Hierarchy& hierarchy, const LevelOptions& options, Level& level, std::string& error);
+
+}  // namespace ImageBufAlgo
+}  // namespace pimg

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every parameter of every operation, declared once: key, unit, range, default and help. The
+// command line, the plugin's read-time keys, Python and the documentation all read these tables.
+//
+// To add an operation: write its struct below (defaults are the member initialisers), declare its
+// option_table, and define the table in options.cpp. Nothing else lists options.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace pimg {
+
+/// What is known of one option apart from where it is stored.
+struct OptionRule {
+    const char* key;
+    double min, max;      ///< inclusive range of numbers; both 0 for any
+    const char* unit;     ///< "" for none
+    const char* choices;  ///< words allowed, "a|b|c"; "" for any
+    const char* help;     ///< one line
+};
+
+/// A value of any type an option may have.
+using OptionValue = std::variant<bool, int, float, std::string>;
+
+/// One option of the struct T. Made by option().
+template<class T>
+struct Option {
+    OptionRule rule;
+    OptionValue (*get)(const T& options);
+    void (*set)(T& options, const OptionValue& value);  ///< of the type get() returns
+};
+
+template<class T, auto member>
+Option<T> option(const OptionRule& rule)
+{
+    using Value = std::decay_t<decltype(std::declval<T>().*member)>;
+    return { rule, [](const T& options) { return OptionValue(options.*member); },
+             [](T& options, const OptionValue& value) {
+                 options.*member = std::get<Value>(value);
+             } };
+}
+
+/// What --help, documentation and Python show of an option.
+struct OptionInfo {
+    std::string key, type, unit, range, choices, default_value, help;
+};
+
+/// The table of an options struct; specialised for each below.
+template<class T>
+const std::vector<Option<T>>& option_table();
+
+/// Sets one option from text ("0.3", "true", "rgb"). False, with a one-line message naming the key, what was given and
+/// what was expected, for an unknown key, a value that does not parse or one out of range; `options` is then unchanged.
+template<class T>
+bool set_option(T& options, std::string_view key, std::string_view value, std::string& error);
+
+/// Checks values assigned in code against the same ranges; a default always passes.
+template<class T>
+bool check_options(const T& options, std::string& error);
+
+template<class T>
+std::vector<OptionInfo> describe_options();
+
+// ---- the options ------------------------------------------------------------------------------------------
+
+/// How the picture is read and its hierarchy built.
+struct BuildOptions {
+    std::string guide;         ///< luma, log or rgb; empty: log for half/float pictures, else luma
+    int base = 128;            ///< faces of the base mesh
+    std::string incolorspace;  ///< colour space of the picture; empty: its oiio:ColorSpace, else sRGB for 8 bit,
+                               ///< else scene-linear
+};
+
+/// Which level M_i to show: at most one may be set; none means the finest.
+struct LevelOptions {
+    int splits = -1;         ///< vertex splits applied to the base mesh
+    int faces = -1;          ///< faces of M_i
+    int vertices = -1;       ///< vertices of M_i
+    float fraction = -1.0f;  ///< share of the picture's vertices
+    float error = -1.0f;     ///< largest collapse cost left out
+};
+
+struct WireframeOptions : LevelOptions {
+    bool overlay = false;  ///< draw over the level's image instead of white
+    float line = 1.0f;     ///< width of the lines in pixels
+};
+
+/// Low-pass by position in the hierarchy (paper, section 4.1).
+struct FeatureLowpassOptions {
+    int splits = -1;         ///< n_l of the paper: vertex splits whose details are kept
+    float fraction = -1.0f;  ///< the same as a share of all splits; a tenth if neither is given
+};
+
+/// Amplifies the details of a range of splits (paper, section 4.1).
+struct DetailEnhanceOptions {
+    float gain = 2.0f;
+    float from = 0.1f;  ///< first split amplified: a share of all splits, or a number of splits if above 1
+    float to = 1.0f;    ///< end of the range, likewise
+};
+
+/// HDR compression (paper, section 5.1, Eq. 2) with contrast envelope and automatic exposure. Values of 0 marked "found"
+/// are taken from the picture; resolve_hdr_compress() tells them.
+struct HdrCompressOptions {
+    float s0 = 0.0f;         ///< scale of the base and of the largest details; 0: found
+    float beta = 4.0f;       ///< how fast smaller details are compressed less
+    float dmax = 0.0f;       ///< detail compressed fully, in stops; 0: found
+    float coherence = 1.0f;  ///< share of the contrast around it that a detail is compressed for; 0: Eq. (2) as printed
+    float saturation = 1.0f;  ///< exponent of the colour ratio; 1 keeps it, 0 is grey
+    bool fit = true;          ///< place middle grey and white on the display; false: stay in the picture's units
+    float contrast = 0.0f;    ///< factor on the compressed log luminance; 0: found
+    float key = 0.0f;         ///< luminance of the compressed picture shown as middle grey (0.18); 0: found
+    float white = 0.0f;       ///< luminance of the compressed picture shown as white; 0: found
+    float exposure = 0.0f;    ///< brightness added to that, in stops
+};
+
+template<>
+const std::vector<Option<BuildOptions>>& option_table<BuildOptions>();
+template<>
+const std::vector<Option<LevelOptions>>& option_table<LevelOptions>();
+template<>
+const std::vector<Option<WireframeOptions>>& option_table<WireframeOptions>();
+template<>
+const std::vector<Option<FeatureLowpassOptions>>& option_table<FeatureLowpassOptions>();
+template<>
+const std::vector<Option<DetailEnhanceOptions>>& option_table<DetailEnhanceOptions>();
+template<>
+const std::vector<Option<HdrCompressOptions>>& option_table<HdrCompressOptions>();
+
+// ---- implementation ---------------------------------------------------------------------------------------
+
+/// Parses `text` as the type `value` holds, and checks it; see set_option().
+bool parse_option(const OptionRule& rule, std::string_view text, OptionValue& value, std::string& error);
+
+bool check_option(const OptionRule& rule, const OptionValue& value, std::string& error);
+OptionInfo describe_option(const OptionRule& rule, const OptionValue& default_value);
+std::string unknown_option(std::string_view key, const std::vector<std::string_view>& known);
+
+template<class T>
+bool set_option(T& options, std::string_view key, std::string_view value, std::string& error)
+{
+    std::vector<std::string_view> known;
+    for (const Option<T>& option : option_table<T>()) {
+        known.push_back(option.rule.key);
+        if (key != option.rule.key)
+            continue;
+        OptionValue parsed = option.get(options);
+        if (!parse_option(option.rule, value, parsed, error))
+            return false;
+        option.set(options, parsed);
+        return true;
+    }
+    error = unknown_option(key, known);
+    return false;
+}
+
+template<class T>
+bool check_options(const T& options, std::string& error)
+{
+    const T defaults;
+    for (const Option<T>& option : option_table<T>()) {
+        const OptionValue value = option.get(options);
+        if (value != option.get(defaults) && !check_option(option.rule, value, error))
+            return false;
+    }
+    return true;
+}
+
+template<class T>
+std::vector<OptionInfo> describe_options()
+{
+    const T defaults;
+    std::vector<OptionInfo> infos;
+    for (const Option<T>& option : option_table<T>())
+        infos.push_back(describe_option(option.rule, option.get(defaults)));
+    return infos;
+}
+
+}  // namespace pimg

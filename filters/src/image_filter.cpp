@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "image_filter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <OpenImageIO/imagebufalgo_util.h>
+
+namespace pimg {
+
+namespace {
+
+bool is_floating(OIIO::TypeDesc type)
+{
+    return type == OIIO::TypeDesc::HALF || type == OIIO::TypeDesc::FLOAT || type == OIIO::TypeDesc::DOUBLE;
+}
+
+bool is_empty(const OIIO::ROI& roi)
+{
+    return roi.xbegin >= roi.xend || roi.ybegin >= roi.yend || roi.zbegin >= roi.zend || roi.chbegin >= roi.chend;
+}
+
+}  // namespace
+
+bool prepare(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, ResultType type)
+{
+    if (!src.initialized()) {
+        dst.errorfmt("{}", src.error().empty() ? "the progressive image has not been built" : src.error());
+        return false;
+    }
+    ProgressiveImage::Data& data = *src.data();
+    // A region with nothing of the source in it is no error, but IBAprep would turn it inside out.
+    const OIIO::ROI whole = data.source.roi();
+    if (roi.defined() && is_empty(OIIO::roi_intersection(roi, whole))) {
+        roi = OIIO::ROI(whole.xbegin, whole.xbegin, whole.ybegin, whole.ybegin);
+        return true;
+    }
+    OIIO::ImageSpec spec = data.spec;
+    if (type == ResultType::full_float || (type == ResultType::floating && !is_floating(spec.format)))
+        spec.format = OIIO::TypeDesc::FLOAT;
+    spec.channelformats.clear();
+    spec.tile_width = spec.tile_height = spec.tile_depth = 0;
+    if (!OIIO::ImageBufAlgo::IBAprep(roi, &dst, &data.source, nullptr, nullptr, &spec,
+                                     OIIO::ImageBufAlgo::IBAprep_NO_SUPPORT_VOLUME))
+        return false;
+    roi = OIIO::roi_intersection(roi, whole);
+    roi.chend = std::min({ roi.chend, dst.nchannels(), data.source.nchannels() });
+    return true;
+}
+
+void write_rows(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, OIIO::ROI roi, const ParallelFor& parallel,
+                const RowFilter& filter)
+{
+    if (is_empty(roi))
+        return;
+    const int channels = data.source.nchannels();
+    const OIIO::TypeDesc type = dst.spec().format;
+    const std::size_t pixel_bytes = std::size_t(channels) * sizeof(float);
+    for_rows(parallel, roi.ybegin, roi.yend, [&](int y) {
+        const float* source = static_cast<const float*>(data.source.pixeladdr(roi.xbegin, y, roi.zbegin));
+        std::vector<float> row(source, source + std::size_t(roi.width()) * std::size_t(channels));
+        filter(y, row.data());
+        OIIO::convert_image(roi.nchannels(), roi.width(), 1, 1, row.data() + roi.chbegin, OIIO::TypeDesc::FLOAT,
+                            OIIO::stride_t(pixel_bytes), OIIO::AutoStride, OIIO::AutoStride,
+                            dst.pixeladdr(roi.xbegin, y, roi.zbegin, roi.chbegin), type, dst.pixel_stride(),
+                            OIIO::AutoStride, OIIO::AutoStride);
+    });
+}
+
+void write_channels(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, OIIO::ROI roi, const ParallelFor& parallel,
+                    const std::vector<std::vector<float>>& results, Specials specials)
+{
+    const OIIO::ImageSpec& spec = data.source.spec();
+    write_rows(dst, data, roi, parallel, [&](int y, float* row) {
+        const int first = roi.xbegin - spec.x;
+        for (int i = 0; i < data.colour.count(); ++i) {
+            float* out = row + data.colour.channel(i);
+            const float* in = &results[std::size_t(i)][std::size_t(y - spec.y) * std::size_t(spec.width)];
+            for (int x = 0; x < roi.width(); ++x, out += spec.nchannels)
+                *out = in[first + x];
+        }
+        if (specials == Specials::replaced)
+            return;
+        const Index begin = Index(y - spec.y) * Index(spec.width) + Index(first);
+        for_specials(data, begin, std::size_t(roi.width()),
+                     [&](const SpecialSample& s) { row[int(s.pixel - begin) * spec.nchannels + s.channel] = s.value; });
+    });
+}
+
+std::vector<float> to_picture(const Hierarchy& hierarchy, const float* values, int exponent)
+{
+    std::vector<float> samples(hierarchy.mesh_pixels());
+    scatter(hierarchy, values, samples.data());
+    crop_to_picture(hierarchy, samples);
+    if (exponent != 0)
+        for (float& sample : samples)
+            sample = std::ldexp(sample, exponent);
+    return samples;
+}
+
+void crop_to_picture(const Hierarchy& hierarchy, std::vector<float>& samples)
+{
+    const std::size_t width = std::size_t(hierarchy.width), height = std::size_t(hierarchy.height);
+    const std::size_t mesh_width = std::size_t(hierarchy.mesh_width());
+    if (samples.size() == width * height)
+        return;
+    for (std::size_t y = 0; y < height; ++y)
+        std::copy_n(samples.begin() + std::ptrdiff_t(y * mesh_width), width,
+                    samples.begin() + std::ptrdiff_t(y * width));
+    samples.resize(width * height);
+}
+
+bool build_source(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, int nthreads, ProgressiveImage& progressive)
+{
+    if (progressive.build(src, {}, nthreads))
+        return true;
+    dst.errorfmt("{}", progressive.error());
+    return false;
+}
+
+}  // namespace pimg

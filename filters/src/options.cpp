@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pimg/options.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <system_error>
+
+namespace pimg {
+
+namespace {
+
+constexpr double kAnyInt = std::numeric_limits<int>::max();
+constexpr double kAnyFloat = 3.4e38;
+
+std::string quoted(std::string_view text)
+{
+    return "\"" + std::string(text) + "\"";
+}
+
+/// Shortest text that reads back as the same float.
+std::string to_text(double number)
+{
+    char buffer[32];
+    if (number == std::floor(number) && std::fabs(number) < 1e9)
+        std::snprintf(buffer, sizeof buffer, "%.0f", number);
+    else
+        for (int digits = 3; digits <= 9; ++digits) {
+            std::snprintf(buffer, sizeof buffer, "%.*g", digits, number);
+            float back = 0.0f;
+            std::from_chars(buffer, buffer + sizeof buffer, back);
+            if (back == float(number))
+                break;
+        }
+    return buffer;
+}
+
+std::string to_text(const OptionValue& value)
+{
+    if (const bool* flag = std::get_if<bool>(&value))
+        return *flag ? "1" : "0";
+    if (const int* number = std::get_if<int>(&value))
+        return std::to_string(*number);
+    if (const float* number = std::get_if<float>(&value))
+        return to_text(double(*number));
+    return std::get<std::string>(value);
+}
+
+std::string range_text(const OptionRule& rule)
+{
+    if (rule.min == rule.max)
+        return "";
+    const bool open = rule.max >= kAnyInt;
+    return open ? to_text(rule.min) + " or more" : to_text(rule.min) + " to " + to_text(rule.max);
+}
+
+std::string expected(const OptionRule& rule, const OptionValue& type)
+{
+    if (*rule.choices != '\0') {
+        std::string words = rule.choices;
+        for (std::size_t at; (at = words.find('|')) != std::string::npos;)
+            words.replace(at, 1, ", ");
+        return "one of " + words;
+    }
+    if (std::holds_alternative<bool>(type))
+        return "1 or 0, true or false";
+    if (std::holds_alternative<std::string>(type))
+        return "text";
+    const std::string kind = std::holds_alternative<int>(type) ? "a whole number" : "a number";
+    return rule.min == rule.max ? kind : kind + ", " + range_text(rule);
+}
+
+bool fail(const OptionRule& rule, std::string_view text, const OptionValue& type, std::string& error)
+{
+    error = std::string(rule.key) + "=" + quoted(text) + ": expected " + expected(rule, type);
+    return false;
+}
+
+/// Whole text as a finite number, whatever the locale; "+1", "1.0" and "1e3" are fine.
+bool to_number(std::string_view text, double& number)
+{
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-')
+        text.remove_prefix(1);
+    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return status == std::errc() && end == text.data() + text.size() && std::isfinite(number);
+}
+
+bool to_flag(std::string_view text, bool& flag)
+{
+    for (const char* word : { "1", "true", "on", "yes" })
+        if (text == word)
+            return flag = true;
+    flag = false;
+    return text == "0" || text == "false" || text == "off" || text == "no";
+}
+
+bool is_choice(std::string_view choices, std::string_view word)
+{
+    while (!choices.empty()) {
+        const std::size_t bar = choices.find('|');
+        if (choices.substr(0, bar) == word)
+            return true;
+        choices.remove_prefix(bar == choices.npos ? choices.size() : bar + 1);
+    }
+    return false;
+}
+
+}  // namespace
+
+bool check_option(const OptionRule& rule, const OptionValue& value, std::string& error)
+{
+    bool fine = true;
+    double number = rule.min;
+    if (const int* whole = std::get_if<int>(&value))
+        number = *whole;
+    else if (const float* real = std::get_if<float>(&value))
+        number = double(*real);
+    else if (const std::string* word = std::get_if<std::string>(&value))
+        fine = *rule.choices == '\0' || is_choice(rule.choices, *word);
+    if (rule.min == rule.max)
+        fine = fine && std::isfinite(number);
+    else
+        fine = fine && number >= double(float(rule.min)) && number <= double(float(rule.max));  // false for NaN
+    return fine || fail(rule, to_text(value), value, error);
+}
+
+bool parse_option(const OptionRule& rule, std::string_view text, OptionValue& value, std::string& error)
+{
+    const OptionValue type = value;
+    double number = 0.0;
+    bool flag = false;
+    if (std::holds_alternative<std::string>(type))
+        value = std::string(text);
+    else if (std::holds_alternative<bool>(type) && to_flag(text, flag))
+        value = flag;
+    else if (std::holds_alternative<float>(type) && to_number(text, number) && std::fabs(number) <= kAnyFloat)
+        value = float(number);
+    else if (std::holds_alternative<int>(type) && to_number(text, number) && number == std::floor(number)
+             && std::fabs(number) <= kAnyInt)
+        value = int(number);
+    else
+        return fail(rule, text, type, error);
+    return check_option(rule, value, error) || fail(rule, text, type, error);
+}
+
+OptionInfo describe_option(const OptionRule& rule, const OptionValue& default_value)
+{
+    static const char* const types[] = { "flag", "int", "float", "string" };
+    OptionInfo info;
+    info.key = rule.key;
+    info.type = types[default_value.index()];
+    info.unit = rule.unit;
+    info.range = range_text(rule);
+    info.choices = rule.choices;
+    info.default_value = to_text(default_value);
+    if (rule.min > double(-1) && rule.min != rule.max && info.default_value == "-1")
+        info.default_value.clear();  // -1 stands for "not set"
+    info.help = rule.help;
+    return info;
+}
+
+std::string unknown_option(std::string_view key, const std::vector<std::string_view>& known)
+{
+    std::string message = "unknown option " + quoted(key) + ": expected ";
+    for (std::size_t i = 0; i < known.size(); ++i)
+        message += (i == 0 ? "" : i + 1 == known.size() ? " or " : ", ") + std::string(known[i]);
+    return known.empty() ? "unknown option " + quoted(key) + ": expected none" : message;
+}
+
+// ---- the tables -------------------------------------------------------------------------------------------
+// key, min, max, unit, choices, help; a range of 0, 0 stands for any.
+
+template<>
+const std::vector<Option<BuildOptions>>& option_table<BuildOptions>()
+{
+    using T = BuildOptions;
+    static const std::vector<Option<T>> table = {
+        option<T, &T::guide>(
+            { "guide", 0, 0, "", "luma|log|rgb", "what decides the mesh; log for half/float pictures, else luma" }),
+        option<T, &T::base>({ "base", 2, kAnyInt, "faces", "", "size of the base mesh" }),
+        option<T, &T::incolorspace>({ "incolorspace", 0, 0, "", "",
+                                      "colour space of the picture; its metadata, else sRGB for 8 bit, else linear" }),
+    };
+    return table;
+}
+
+namespace {
+
+/// The level options of T, a struct derived from LevelOptions.
+template<class T>
+std::vector<Option<T>> level_table()
+{
+    return {
+        option<T, &T::splits>({ "splits", 0, kAnyInt, "splits", "", "vertex splits applied to the base mesh" }),
+        option<T, &T::faces>({ "faces", 2, kAnyInt, "faces", "", "triangles of the mesh" }),
+        option<T, &T::vertices>({ "vertices", 4, kAnyInt, "vertices", "", "vertices of the mesh" }),
+        option<T, &T::fraction>({ "fraction", 0, 1, "", "", "share of the picture's vertices" }),
+        option<T, &T::error>({ "error", 0, kAnyFloat, "", "", "largest collapse cost left out" }),
+    };
+}
+
+}  // namespace
+
+template<>
+const std::vector<Option<LevelOptions>>& option_table<LevelOptions>()
+{
+    static const std::vector<Option<LevelOptions>> table = level_table<LevelOptions>();
+    return table;
+}
+
+template<>
+const std::vector<Option<WireframeOptions>>& option_table<WireframeOptions>()
+{
+    using T = WireframeOptions;
+    static const std::vector<Option<T>> table = [] {
+        std::vector<Option<T>> all = level_table<T>();
+        all.push_back(option<T, &T::overlay>({
+            "overlay", 0, 0, "", "", "draw over the level's picture instead of white" } });
+    all.push_back(option<T, &T::line>({ "line", 0.1, 100, "pixels", "", "width of the lines" }));
+    return all;
+}
+();
+return table;
+}  // namespace pimg
+
+template<>
+const std::vector<Option<FeatureLowpassOptions>>& option_table<FeatureLowpassOptions>()
+{
+    using T = FeatureLowpassOptions;
+    static const std::vector<Option<T>> table = {
+        { &T::splits, { "splits", 0, kAnyInt, "splits", "", "vertex splits whose details are kept" }),
+        option<T, &T::fraction>({ "fraction", 0, 1, "", "", "the same as a share of all splits; 0.1 if neither is given" }),
+    };
+    return table;
+}
+
+template<>
+const std::vector<Option<DetailEnhanceOptions>>& option_table<DetailEnhanceOptions>()
+{
+    using T = DetailEnhanceOptions;
+    static const std::vector<Option<T>> table = {
+        option<T, &T::gain>({ "gain", 0, 100, "", "", "factor on the details; 1 changes nothing" }),
+        option<T, &T::from>(
+            { "from", 0, kAnyInt, "", "", "first split amplified: share of all, or their number if above 1" }),
+        option<T, &T::to>({ "to", 0, kAnyInt, "", "", "end of the range, likewise" }),
+    };
+    return table;
+}
+
+template<>
+const std::vector<Option<HdrCompressOptions>>& option_table<HdrCompressOptions>()
+{
+    using T = HdrCompressOptions;
+    static const std::vector<Option<T>> table = {
+        option<T, &T::s0>(
+            { "s0", 0, 1, "", "", "scale of the base and of the largest details; 0: found from the picture" }),
+        option<T, &T::beta>({ "beta", 0, 1000, "", "", "how fast smaller details are compressed less" }),
+        option<T, &T::dmax>({ "dmax", 0, 256, "stops", "", "detail that is compressed fully; 0: found" }),
+        option<T, &T::coherence>({ "coherence", 0, 1, "", "",
+                                   "share of the contrast around it that a detail is compressed for; 0: its own" }),
+        option<T, &T::saturation>(
+            { "saturation", 0, 4, "", "", "exponent of the colour ratio; 1 keeps colours, 0 is grey" }),
+        option<T, &T::fit>(
+            { "fit", 0, 0, "", "", "fit the result to the display; 0: leave it in the picture's units" }),
+        option<T, &T::contrast>({ "contrast", 0, 8, "", "", "factor on the compressed log luminance; 0: found" }),
+        option<T, &T::key>(
+            { "key", 0, kAnyFloat, "", "", "luminance after compression shown as middle grey; 0: found" }),
+        option<T, &T::white>({ "white", 0, kAnyFloat, "", "", "luminance after compression shown as white; 0: found" }),
+        option<T, &T::exposure>({ "exposure", -20, 20, "stops", "", "brightness added" }),
+    };
+    return table;
+}
+
+}  // namespace pimg

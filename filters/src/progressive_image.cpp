@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pimg/progressive_image.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+#include "contrast_envelope.h"
+#include "parallel.h"
+#include "progressive_image_data.h"
+
+namespace pimg {
+
+namespace {
+
+/// Seconds since the last call.
+class Stopwatch {
+public:
+    double lap()
+    {
+        const auto now = std::chrono::steady_clock::now();
+        return std::chrono::duration<double>(now - std::exchange(m_start, now)).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
+};
+
+bool is_floating(OIIO::TypeDesc type)
+{
+    return type == OIIO::TypeDesc::HALF || type == OIIO::TypeDesc::FLOAT || type == OIIO::TypeDesc::DOUBLE;
+}
+
+/// Samples of one channel, one per mesh pixel, times 2^-exponent.
+std::vector<float> mesh_samples(const ProgressiveImage::Data& data, int channel, int exponent)
+{
+    const OIIO::ImageSpec& spec = data.source.spec();
+    const float* p = static_cast<const float*>(data.source.localpixels()) + channel;
+    std::vector<float> samples(spec.image_pixels());
+    for (float& sample : samples) {
+        sample = exponent == 0 ? *p : std::ldexp(*p, -exponent);
+        p += spec.nchannels;
+    }
+    return to_mesh_pixels(data.hierarchy, samples.data());
+}
+
+std::size_t bytes(const Bands& bands)
+{
+    return bands.base.capacity() * sizeof(float) + bands.details.capacity() * sizeof(Detail);
+}
+
+}  // namespace
+
+bool ProgressiveImage::Data::read(const OIIO::ImageBuf& src, std::string& error)
+{
+    if (!src.initialized()) {
+        error = src.has_error() ? src.geterror(false) : "the picture is not initialized";
+        return false;
+    }
+    if (src.deep()) {
+        error = "deep images not supported";
+        return false;
+    }
+    spec = src.spec();
+    if (spec.depth > 1) {
+        error = "volumes not supported";
+        return false;
+    }
+    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) {
+        error = "the picture is empty";
+        return false;
+    }
+    if (!source.copy(src, OIIO::TypeDesc::FLOAT) || source.localpixels() == nullptr) {
+        error = source.has_error() ? source.geterror() : src.geterror(false);
+        return false;
+    }
+    // What the file stored tells an 8-bit picture that was read as float from a scene-referred one.
+    OIIO::ImageSpec stored = spec;
+    stored.format = src.nativespec().format;
+    m_whole_numbers = !is_floating(stored.format);
+    stats.guide = !options.guide.empty() ? options.guide : m_whole_numbers ? "luma" : "log";
+    return Colour::resolve(stored, options.incolorspace, colour, error);
+}
+
+bool ProgressiveImage::Data::simplify_guide(const ParallelFor& parallel, const Progress& progress, std::string& error)
+{
+    Stopwatch watch;
+    specials = repair(source, colour, parallel);
+    std::vector<Raster> channels(1);
+    if (stats.guide == "log") {
+        m_log = std::make_unique<LogBands>();
+        m_log->luminance = log_luminance(source, colour, parallel);
+        channels[0] = std::move(m_log->luminance.guide);
+    } else {
+        StoredGuide stored = stored_guide(source, colour, stats.guide == "rgb", m_whole_numbers, parallel);
+        m_guide_scale = stored.scale;
+        m_guide_clipped = stored.clipped;
+        channels = std::move(stored.channels);
+    }
+    stats.guide_seconds = watch.lap();
+
+    SimplifyOptions simplify_options;
+    simplify_options.base_faces = Index(options.base);
+    simplify_options.parallel = parallel;
+    simplify_options.progress = progress;
+    std::vector<Bands> bands;
+    Guide guide { channels[0].width, channels[0].height, {} };
+    for (const Raster& channel : channels)
+        guide.channels.push_back({ channel.samples.data() });
+    const Status status = simplify(guide, simplify_options, hierarchy, guide_bands, &stats.engine);
+    error = status.error();
+    stats.simplify_seconds = watch.lap();
+    if (m_log != nullptr && status) {
+        m_log->luminance.guide = std::move(channels[0]);
+        m_log->bands = &guide_bands[0];
+    }
+    return status.ok();
+}
+
+const LogBands* ProgressiveImage::Data::log_bands(const ParallelFor& parallel, std::string& error)
+{
+    std::lock_guard<std::mutex> lock(m_mutex);
+    if (m_log != nullptr)
+        return m_log.get();
+    auto log = std::make_unique<LogBands>();
+    log->luminance = log_luminance(source, colour, parallel);
+    const std::vector<float> samples = to_mesh_pixels(hierarchy, log->luminance.guide.samples.data());
+    std::vector<Bands> bands;
+    const Status status = analyse(hierarchy, { samples.data() }, bands);
+    error = status.error();
+    if (!status)
+        return nullptr;
+    m_log_bands = std::move(bands[0]);
+    log->bands = &m_log_bands;
+    m_log = std::move(log);
+    return m_log.get();
+}
+
+bool ProgressiveImage::Data::are_channels_the_guide() const
+{
+    return !m_guide_clipped && (stats.guide == "rgb" || (stats.guide == "luma" && colour.count() < 2));
+}
+
+const ChannelBands* ProgressiveImage::Data::channel_bands(const ParallelFor&, std::string& error)
+{
+    std::lock_guard<std::mutex> lock(m_mutex);
+    if (m_channels != nullptr)
+        return m_channels.get();
+    auto channels = std::make_unique<ChannelBands>();
+    if (are_channels_the_guide()) {
+        channels->bands = guide_bands;
+        channels->exponent = -std::ilogb(m_guide_scale);
+    } else {
+        const float* p = static_cast<const float*>(source.localpixels());
+        float largest = 0.0f;
+        for (std::size_t i = 0; i < spec.image_pixels(); ++i, p += spec.nchannels)
+            for (int c = 0; c < colour.count(); ++c)
+                largest = std::max(largest, std::fabs(p[colour.channel(c)]));
+        channels->exponent = largest > 0x1p100f ? 30 : 0;
+        std::vector<std::vector<float>> samples;
+        std::vector<const float*> pointers;
+        for (int c = 0; c < colour.count(); ++c)
+            samples.push_back(mesh_samples(*this, colour.channel(c), channels->exponent));
+        for (const std::vector<float>& channel : samples)
+            pointers.push_back(channel.data());
+        const Status status = analyse(hierarchy, pointers, channels->bands);
+        error = status.error();
+        if (!status)
+            return nullptr;
+    }
+    m_channels = std::move(channels);
+    return m_channels.get();
+}
+
+std::shared_ptr<const std::vector<float>> ProgressiveImage::Data::envelope(float coherence)
+{
+    std::lock_guard<std::mutex> lock(m_mutex);
+    if (m_envelope == nullptr || m_envelope_coherence != coherence) {
+        m_envelope = std::make_shared<const std::vector<float>>(contrast_envelope(hierarchy, *m_log->bands, coherence));
+        m_envelope_coherence = coherence;
+    }
+    return m_envelope;
+}
+
+std::size_t ProgressiveImage::Data::memory()
+{
+    std::lock_guard<std::mutex> lock(m_mutex);
+    std::size_t total = spec.image_pixels() * std::size_t(spec.nchannels) * sizeof(float) + hierarchy.memory()
+        + bytes(m_log_bands) + specials.capacity() * sizeof(SpecialSample);
+    for (const Bands& bands : guide_bands)
+        total += bytes(bands);
+    if (m_log != nullptr)
+        total += m_log->luminance.guide.samples.capacity() * sizeof(float);
+    if (m_channels != nullptr)
+        for (const Bands& bands : m_channels->bands)
+            total += bytes(bands);
+    if (m_envelope != nullptr)
+        total += m_envelope->capacity() * sizeof(float);
+    return total;
+}
+
+bool ProgressiveImage::build(const OIIO::ImageBuf& src, const BuildOptions& options, int nthreads, Progress progress)
+{
+    m_data.reset();
+    m_error.clear();
+    try {
+        auto data = std::make_shared<Data>();
+        data->options = options;
+        Stopwatch watch;
+        if (check_options(options, m_error) && data->read(src, m_error)) {
+            data->stats.read_seconds = watch.lap();
+            if (data->simplify_guide(pool_loop(nthreads), progress, m_error))
+                m_data = std::move(data);
+        }
+    } catch (const std::bad_alloc&) {
+        m_error = "not enough memory";
+    } catch (const std::exception& exception) {
+        m_error = exception.what();
+    }
+    if (m_data == nullptr && m_error.empty())
+        m_error = "the picture cannot be read";
+    return m_data != nullptr;
+}
+
+const Hierarchy& ProgressiveImage::hierarchy() const
+{
+    return m_data->hierarchy;
+}
+const std::vector<Bands>& ProgressiveImage::guide_bands() const
+{
+    return m_data->guide_bands;
+}
+const OIIO::ImageBuf& ProgressiveImage::source() const
+{
+    return m_data->source;
+}
+const OIIO::ImageSpec& ProgressiveImage::spec() const
+{
+    return m_data->spec;
+}
+const BuildOptions& ProgressiveImage::options() const
+{
+    return m_data->options;
+}
+const BuildStats& ProgressiveImage::stats() const
+{
+    return m_data->stats;
+}
+std::size_t ProgressiveImage::memory() const
+{
+    return m_data->memory();
+}
+
+}  // namespace pimg

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the filters share of a progressive image: everything they would otherwise compute again for
+// each new parameter.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include <pimg/progressive_image.h>
+
+#include "guide.h"
+
+namespace pimg {
+
+/// Bands of log luminance, whatever the guide was.
+struct LogBands {
+    LogLuminance luminance;
+    const Bands* bands = nullptr;
+};
+
+/// Bands of the colour channels as stored. `exponent`: samples were scaled by 2^-exponent so that sums of
+/// them stay finite.
+struct ChannelBands {
+    std::vector<Bands> bands;
+    int exponent = 0;
+};
+
+struct ProgressiveImage::Data {
+    OIIO::ImageBuf source;
+    OIIO::ImageSpec spec;
+    BuildOptions options;
+    Colour colour;
+    std::vector<SpecialSample> specials;  ///< by pixel, then channel
+    Hierarchy hierarchy;
+    std::vector<Bands> guide_bands;
+    BuildStats stats;
+
+    /// These fill a cache at the first call. Null, with an error, only if the hierarchy is damaged.
+    const LogBands* log_bands(const ParallelFor& parallel, std::string& error);
+    const ChannelBands* channel_bands(const ParallelFor& parallel, std::string& error);
+
+    /// See contrast_envelope(). Kept for the coherence used last.
+    std::shared_ptr<const std::vector<float>> envelope(float coherence);
+
+    std::size_t memory();
+
+    /// The steps of build().
+    bool read(const OIIO::ImageBuf& src, std::string& error);
+    bool simplify_guide(const ParallelFor& parallel, const Progress& progress, std::string& error);
+
+private:
+    bool are_channels_the_guide() const;
+
+    std::mutex m_mutex;
+    std::unique_ptr<LogBands> m_log;
+    std::unique_ptr<ChannelBands> m_channels;
+    bool m_whole_numbers = false;  ///< the picture's own samples are integers, here 0..1
+    float m_guide_scale = 0.0f;    ///< see StoredGuide; of luma and rgb guides
+    bool m_guide_clipped = false;
+    Bands m_log_bands;  ///< if they are not the guide's
+    float m_envelope_coherence = -1.0f;
+    std::shared_ptr<const std::vector<float>> m_envelope;
+};
+
+}  // namespace pimg
