@@ -300,6 +300,8 @@ CommandGroup filters_group()
                  filter<pimg::HdrCompressOptions>("--hdr-compress",
                                                   "fits high dynamic range to a display: linear light, white at 1",
                                                   iba::hdr_compress, Meaning::display_linear),
+                 filter<pimg::SegmentOptions>("--segment", "merges what looks alike into connected regions",
+                                              iba::segment),
              } };
 }
 

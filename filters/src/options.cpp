@@ -180,6 +180,8 @@ const std::vector<Option<BuildOptions>>& option_table<BuildOptions>()
         option<T, &T::guide>(
             { "guide", 0, 0, "", "luma|log|rgb", "what decides the mesh; log for half/float pictures, else luma" }),
         option<T, &T::base>({ "base", 2, kAnyInt, "faces", "", "size of the base mesh" }),
+        option<T, &T::metric>({ "metric", 0, 0, "", "volume|quadric|exact",
+                                "cost of a collapse; the last two are slow and there for comparison" }),
         option<T, &T::incolorspace>({ "incolorspace", 0, 0, "", "",
                                       "colour space of the picture; its metadata, else sRGB for 8 bit, else linear" }),
     };
@@ -245,6 +247,23 @@ const std::vector<Option<DetailEnhanceOptions>>& option_table<DetailEnhanceOptio
         option<T, &T::from>(
             { "from", 0, kAnyInt, "", "", "first split amplified: share of all, or their number if above 1" }),
         option<T, &T::to>({ "to", 0, kAnyInt, "", "", "end of the range, likewise" }),
+        option<T, &T::curve>({ "curve", 0, 0, "", "",
+                               "position:gain,position:gain,... linear in between; instead of gain, from and to" }),
+    };
+    return table;
+}
+
+template<>
+const std::vector<Option<SegmentOptions>>& option_table<SegmentOptions>()
+{
+    using T = SegmentOptions;
+    static const std::vector<Option<T>> table = {
+        option<T, &T::regions>({ "regions", 1, kAnyInt, "regions", "", "how many; 200 without threshold" }),
+        option<T, &T::threshold>(
+            { "threshold", 0, kAnyFloat, "", "", "cost that every border left exceeds: squared CIELAB units times pixels" }),
+        option<T, &T::output>({ "output", 0, 0, "", "labels|mean|boundaries",
+                                "numbers from 0, mean colours, or 1 at the borders" }),
+        option<T, &T::stats>({ "stats", 0, 0, "", "", "file for figures of every region: .json or else CSV" }),
     };
     return table;
 }

@@ -103,6 +103,9 @@ bool ProgressiveImage::Data::simplify_guide(const ParallelFor& parallel, const P
 
     SimplifyOptions simplify_options;
     simplify_options.base_faces = Index(options.base);
+    simplify_options.metric = options.metric == "quadric" ? Metric::quadric
+                              : options.metric == "exact" ? Metric::exact
+                                                          : Metric::volume;
     simplify_options.parallel = parallel;
     simplify_options.progress = progress;
     std::vector<Bands> bands;
@@ -196,6 +199,8 @@ std::size_t ProgressiveImage::Data::memory()
     if (m_channels != nullptr)
         for (const Bands& bands : m_channels->bands)
             total += bytes(bands);
+    if (m_regions != nullptr)
+        total += m_regions->memory();
     if (m_envelope != nullptr)
         total += m_envelope->capacity() * sizeof(float);
     return total;
