@@ -74,7 +74,7 @@ void sweep(benchmark::State& state)
     const Built& b = built(int(state.range(0)));
     std::vector<float> values(b.hierarchy.vertices());
     for (auto _ : state) {
-        pimg::sweep(b.hierarchy, b.bands, values.data(), b.hierarchy.levels(), [](pimg::Level, pimg::Detail d) {
+        pimg::sweep(b.hierarchy, b.bands[0], values.data(), b.hierarchy.levels(), [](pimg::Level, pimg::Detail d) {
             const float gain = std::fabs(d.t) + std::fabs(d.u) > 8.0f ? 0.5f : 0.9f;
             return pimg::Detail { gain * d.t, gain * d.u };
         });

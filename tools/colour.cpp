@@ -33,7 +33,7 @@ OIIO::ColorConfig& colour_config()
 bool is_linear_space(const std::string& name)
 {
     return Strutil::iequals(name, "linear") || Strutil::iequals(name, "scene_linear")
-           || Strutil::istarts_with(name, "lin_") || colour_config().isColorSpaceLinear(name);
+        || Strutil::istarts_with(name, "lin_") || colour_config().isColorSpaceLinear(name);
 }
 
 std::string configured_space(const std::string& name)

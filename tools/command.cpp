@@ -44,8 +44,8 @@ std::string unknown_command(const std::string& name)
                 nearest = &command;
             }
         }
-    const std::string hint = nearest ? format("did you mean {}?", nearest->name)
-                                     : "expected an operation that --help lists";
+    const std::string hint =
+        nearest ? format("did you mean {}?", nearest->name) : "expected an operation that --help lists";
     return format("unknown operation \"{}\": {}", name, hint);
 }
 
@@ -104,7 +104,7 @@ bool take_words(const std::vector<std::string>& arguments, std::size_t& at, Call
 
 bool parse_command(const std::vector<std::string>& arguments, std::size_t& at, Program& program, std::string& error)
 {
-    const std::string text = arguments[at];
+    const std::string& text = arguments[at];
     const std::size_t colon = std::min(text.find(':'), text.size());
     Call call { find_command(text), {}, {} };
     if (!call.command) {
@@ -120,8 +120,9 @@ bool parse_command(const std::vector<std::string>& arguments, std::size_t& at, P
     if (!call.keys.empty() && !call.command->keys)
         return fail(format("unknown option \"{}\": expected none", call.keys.front().first));
     if (program.pictures < call.command->needs)
-        return fail(program.pictures == 0 ? "no picture to work on: expected an input file before it"
-                                          : format("expected {} pictures on the stack, there is one", call.command->needs));
+        return fail(program.pictures == 0
+                        ? "no picture to work on: expected an input file before it"
+                        : format("expected {} pictures on the stack, there is one", call.command->needs));
     if (!call.command->prepare(call, program, error))
         return fail(error);
     program.pictures += call.command->adds;
@@ -142,7 +143,9 @@ bool parse_input(const std::string& filename, Program& program, std::string& err
         return false;
     }
     program.inputs.push_back(filename);
-    program.steps.push_back({ "", [filename](Session& session) { return session.read(filename); } });
+    program.steps.push_back({ "", [filename](Session& session) {
+                                 return session.read(filename);
+                             } });
     ++program.pictures;
     return true;
 }
@@ -165,8 +168,7 @@ bool parse(const std::vector<std::string>& arguments, Program& program, std::str
 {
     for (std::size_t at = 0; at < arguments.size(); ++at) {
         const bool is_command = !arguments[at].empty() && arguments[at][0] == '-';
-        if (is_command ? !parse_command(arguments, at, program, error)
-                       : !parse_input(arguments[at], program, error))
+        if (is_command ? !parse_command(arguments, at, program, error) : !parse_input(arguments[at], program, error))
             return false;
     }
     if (!program.dangling.empty())

@@ -42,10 +42,10 @@ struct Program {
 
 /// One row of the command table.
 struct Command {
-    const char* name;    ///< "--level"
-    const char* words;   ///< names of the words that follow, "FROM TO"; "" for none
-    const char* help;    ///< one line
-    int needs, adds;     ///< pictures it takes for granted on the stack, and how many more there are afterwards
+    const char* name;   ///< "--level"
+    const char* words;  ///< names of the words that follow, "FROM TO"; "" for none
+    const char* help;   ///< one line
+    int needs, adds;    ///< pictures it takes for granted on the stack, and how many more there are afterwards
     std::vector<pimg::OptionInfo> (*keys)();  ///< of the :key=value suffix; null for none
     /// Checks all that can be checked now and appends steps or sets a switch of `program`.
     std::function<bool(const Call&, Program&, std::string& error)> prepare;

@@ -22,7 +22,8 @@ struct StatsOptions {
 
 namespace pimg {
 
-template<> const std::vector<Option<pimgtool::StatsOptions>>& option_table<pimgtool::StatsOptions>()
+template<>
+const std::vector<Option<pimgtool::StatsOptions>>& option_table<pimgtool::StatsOptions>()
 {
     static const std::vector<Option<pimgtool::StatsOptions>> table = {
         { &pimgtool::StatsOptions::format, { "format", 0, 0, "", "text|json", "json is for programs to read" } },
@@ -61,7 +62,9 @@ Command operation(const char* name, const char* help, bool (*run)(Session&, cons
         Options options;
         if (!read_keys(call, options, error))
             return false;
-        program.steps.push_back({ call.command->name, [=](Session& session) { return run(session, options); } });
+        program.steps.push_back({ call.command->name, [=](Session& session) {
+                                     return run(session, options);
+                                 } });
         return true;
     };
     return { name, "", help, 1, 0, pimg::describe_options<Options>, prepare };
@@ -82,7 +85,9 @@ Command filter(const char* name, const char* help, FilterFunction<Options> funct
         const auto run = [=](ImageBuf& dst, const pimg::ProgressiveImage& src) {
             return function(dst, src, options, {}, 0);
         };
-        program.steps.push_back({ call.command->name, [=](Session& session) { return session.filter(run, meaning); } });
+        program.steps.push_back({ call.command->name, [=](Session& session) {
+                                     return session.filter(run, meaning);
+                                 } });
         return true;
     };
     return { name, "", help, 1, 0, pimg::describe_options<Options>, prepare };
@@ -95,8 +100,9 @@ Command worded(const char* name, const char* words, const char* help, bool (*run
     const auto prepare = [=](const Call& call, Program& program, std::string& error) {
         if (check && !check(call.words, error))
             return false;
-        program.steps.push_back(
-            { call.command->name, [run, words = call.words](Session& session) { return run(session, words); } });
+        program.steps.push_back({ call.command->name, [run, words = call.words](Session& session) {
+                                     return run(session, words);
+                                 } });
         return true;
     };
     return { name, words, help, 1, 0, nullptr, prepare };
@@ -126,7 +132,10 @@ Command setting(const char* name, const char* words, const char* help, Prepare p
 
 // ---- hierarchies ------------------------------------------------------------------------------------------
 
-bool build(Session& session, const pimg::BuildOptions& options) { return session.build(options); }
+bool build(Session& session, const pimg::BuildOptions& options)
+{
+    return session.build(options);
+}
 
 // ---- channels and colour ----------------------------------------------------------------------------------
 
@@ -145,7 +154,10 @@ bool convert_colours(Session& session, const OIIO::ColorProcessorHandle& process
     return done;
 }
 
-bool check_colorconvert(const Words& words, std::string& error) { return bool(conversion(words[0], words[1], error)); }
+bool check_colorconvert(const Words& words, std::string& error)
+{
+    return bool(conversion(words[0], words[1], error));
+}
 
 bool colorconvert(Session& session, const Words& words)
 {
@@ -159,7 +171,10 @@ std::string space_of(const Picture& picture)
     return configured_space(picture.pixels->spec().get_string_attribute("oiio:ColorSpace", "Linear"));
 }
 
-bool check_tocolorspace(const Words& words, std::string& error) { return bool(conversion("linear", words[0], error)); }
+bool check_tocolorspace(const Words& words, std::string& error)
+{
+    return bool(conversion("linear", words[0], error));
+}
 
 bool tocolorspace(Session& session, const Words& words)
 {
@@ -201,8 +216,8 @@ bool channels(Session& session, const Words& words)
     for (const std::string& name : OIIO::Strutil::splits(words[0], ",")) {
         order.push_back(spec.channelindex(name));
         if (order.back() < 0)
-            return session.fail(format("no channel \"{}\": expected some of {}", name,
-                                       OIIO::Strutil::join(spec.channelnames, ", ")));
+            return session.fail(
+                format("no channel \"{}\": expected some of {}", name, OIIO::Strutil::join(spec.channelnames, ", ")));
     }
     if (order.empty())
         return session.fail("\"\": expected names of channels, such as R,G,B");
@@ -230,7 +245,9 @@ bool output_file(const Call& call, Program& program, std::string& error)
     }
     program.written.push_back(filename);
     program.dangling.clear();
-    program.steps.push_back({ call.command->name, [=](Session& session) { return session.write(filename); } });
+    program.steps.push_back({ call.command->name, [=](Session& session) {
+                                 return session.write(filename);
+                             } });
     return true;
 }
 
@@ -252,7 +269,9 @@ bool pixel_type(const Call& call, Program& program, std::string& error)
 bool raw(const Call& call, Program& program, std::string&)
 {
     program.dangling = call.command->name;
-    program.steps.push_back({ call.command->name, [](Session& session) { return session.output.raw = true; } });
+    program.steps.push_back({ call.command->name, [](Session& session) {
+                                 return session.output.raw = true;
+                             } });
     return true;
 }
 
@@ -275,10 +294,16 @@ bool stats(const Call& call, Program& program, std::string& error)
     return true;
 }
 
-bool verbose(const Call&, Program& program, std::string&) { return program.verbose = true; }
+bool verbose(const Call&, Program& program, std::string&)
+{
+    return program.verbose = true;
+}
 
 /// --help and --version answer before anything else is looked at; they are in the table to be listed.
-bool answered_already(const Call&, Program&, std::string&) { return true; }
+bool answered_already(const Call&, Program&, std::string&)
+{
+    return true;
+}
 
 // ---- the table --------------------------------------------------------------------------------------------
 
@@ -293,8 +318,9 @@ CommandGroup filters_group()
                      "--level", "picture of a coarser mesh; at most one key, none for the finest", iba::level_image),
                  filter<pimg::WireframeOptions>("--wireframe", "edges of the mesh of a level, chosen as for --level",
                                                 iba::wireframe),
-                 filter<pimg::FeatureLowpassOptions>(
-                     "--feature-lowpass", "drops small features and keeps the edges of large ones", iba::feature_lowpass),
+                 filter<pimg::FeatureLowpassOptions>("--feature-lowpass",
+                                                     "drops small features and keeps the edges of large ones",
+                                                     iba::feature_lowpass),
                  filter<pimg::DetailEnhanceOptions>("--detail-enhance", "amplifies the details of a range of splits",
                                                     iba::detail_enhance),
                  filter<pimg::HdrCompressOptions>("--hdr-compress",
@@ -338,7 +364,8 @@ CommandGroup output_group()
     return { "Output",
              {
                  { "-o", "FILE", "writes the top picture, which stays on the stack", 1, 0, nullptr, output_file },
-                 setting("-d", "TYPE", "pixel type of the files that follow: uint8, uint16, half, float ...; else the input's",
+                 setting("-d", "TYPE",
+                         "pixel type of the files that follow: uint8, uint16, half, float ...; else the input's",
                          pixel_type),
                  setting("--raw", "",
                          "writes the numbers as they are; else linear light is encoded sRGB in files of whole numbers",
@@ -364,8 +391,8 @@ CommandGroup general_group()
 
 const std::vector<CommandGroup>& command_table()
 {
-    static const std::vector<CommandGroup> table
-        = { filters_group(), colour_group(), stack_group(), output_group(), general_group() };
+    static const std::vector<CommandGroup> table = { filters_group(), colour_group(), stack_group(), output_group(),
+                                                     general_group() };
     return table;
 }
 

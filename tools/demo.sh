@@ -55,12 +55,12 @@ picture "tone-mapped" tonemapped.png --hdr-compress
 picture "tone-mapped, stronger, high dynamic range out" tonemapped.exr --hdr-compress:s0=0.05:beta=2 -d half
 for percent in 0.5 2 10; do
     fraction=$(awk "BEGIN { print $percent / 100 }")
-    picture "level with $percent % of the vertices, tone-mapped after" "level_$percent.png" \
-        --level:fraction="$fraction" --hdr-compress
-    picture "its mesh" "mesh_$percent.png" --wireframe:fraction="$fraction"
+    picture "tone-mapped, then shown by $percent % of the vertices" "level_$percent.png" \
+        --hdr-compress --level:fraction="$fraction"
+    picture "its mesh" "mesh_$percent.png" --hdr-compress --wireframe:fraction="$fraction"
 done
-picture "feature low-pass, 2 % of the splits" lowpass.png --feature-lowpass:fraction=0.02 --hdr-compress
-picture "details enhanced twice" enhanced.png --detail-enhance:gain=2 --hdr-compress
+picture "feature low-pass, 2 % of the splits" lowpass.png --hdr-compress --feature-lowpass:fraction=0.02
+picture "details enhanced twice" enhanced.png --hdr-compress --detail-enhance:gain=2
 
 printf '\n== what it costs: building once, then %d settings of the same filter\n' 5
 settings=()

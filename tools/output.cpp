@@ -51,8 +51,9 @@ void on_interruption(void (*handler)(int))
 class TemporaryFile {
 public:
     explicit TemporaryFile(const std::string& target)
-        : m_target(target), m_name(Filesystem::unique_path(Filesystem::replace_extension(
-                                target, ".%%%%%%%%.temp" + Filesystem::extension(target))))
+        : m_target(target),
+          m_name(Filesystem::unique_path(
+              Filesystem::replace_extension(target, ".%%%%%%%%.temp" + Filesystem::extension(target))))
     {
         if (m_name.size() < sizeof unfinished_file)
             std::copy(m_name.c_str(), m_name.c_str() + m_name.size() + 1, unfinished_file);
@@ -69,11 +70,8 @@ public:
 
     const std::string& name() const { return m_name; }
 
-    /// A format that writes no file at all, such as OpenImageIO's "null" and "term", is fine.
-    bool keep(std::string& error)
-    {
-        return !Filesystem::exists(m_name) || Filesystem::rename(m_name, m_target, error);
-    }
+    /// A format that writes no file at all, such as OpenImageIO's "term", is fine.
+    bool keep(std::string& error) { return !Filesystem::exists(m_name) || Filesystem::rename(m_name, m_target, error); }
 
 private:
     std::string m_target, m_name;
@@ -143,6 +141,8 @@ bool write_pixels(ImageOutput& out, const ImageBuf& pixels, const std::string& f
     const bool closed = out.close();
     if (written && !closed)
         error = out.geterror();
+    if (!(written && closed) && error.empty())
+        error = format("the writer of {} gave up without saying why", out.format_name());
     return written && closed;
 }
 
@@ -209,9 +209,9 @@ const char* const kOutputTypes = "uint8, uint16, uint32, int8, int16, int32, hal
 
 TypeDesc output_type(const std::string& word)
 {
-    for (const TypeDesc::BASETYPE type : { TypeDesc::UINT8, TypeDesc::UINT16, TypeDesc::UINT32, TypeDesc::INT8,
-                                           TypeDesc::INT16, TypeDesc::INT32, TypeDesc::HALF, TypeDesc::FLOAT,
-                                           TypeDesc::DOUBLE })
+    for (const TypeDesc::BASETYPE type :
+         { TypeDesc::UINT8, TypeDesc::UINT16, TypeDesc::UINT32, TypeDesc::INT8, TypeDesc::INT16, TypeDesc::INT32,
+           TypeDesc::HALF, TypeDesc::FLOAT, TypeDesc::DOUBLE })
         if (TypeDesc(word) == TypeDesc(type))
             return type;
     return TypeDesc::UNKNOWN;
@@ -270,8 +270,8 @@ bool write_picture(const OutputPicture& picture, const std::string& filename,
     const ImageSpec spec = file_spec(*source, types, *out);
     if (!write_pixels(*out, *source, file.name(), spec, progress, error) || !file.keep(error))
         return false;
-    summary = format("{} x {} {}{}", spec.width, spec.height, out->spec().format.c_str(),
-                     encode ? ", encoded sRGB" : "");
+    summary =
+        format("{} x {} {}{}", spec.width, spec.height, out->spec().format.c_str(), encode ? ", encoded sRGB" : "");
     return true;
 }
 

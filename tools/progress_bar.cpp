@@ -11,7 +11,9 @@
 namespace pimgtool {
 
 ProgressBar::ProgressBar(std::string label)
-    : m_label(std::move(label)), m_terminal(isatty(STDERR_FILENO) != 0), m_next(Clock::now() + std::chrono::seconds(1))
+    : m_label(std::move(label)),
+      m_terminal(isatty(STDERR_FILENO) != 0),
+      m_next(Clock::now() + std::chrono::seconds(1))
 {
 }
 

@@ -23,7 +23,10 @@ bool holds_linear_light(const OIIO::ImageSpec& stored)
     return stored.format.is_floating_point() && (space.empty() || is_linear_space(space));
 }
 
-PixelTypes pixel_types(const OIIO::ImageSpec& stored) { return { stored.format, stored.channelformats }; }
+PixelTypes pixel_types(const OIIO::ImageSpec& stored)
+{
+    return { stored.format, stored.channelformats };
+}
 
 std::string describe(const OIIO::ImageBuf& pixels, const PixelTypes& types)
 {
@@ -107,7 +110,8 @@ bool Session::write(const std::string& filename)
         out.types = { output.type, {} };
     ProgressBar bar(label("writing", filename));
     std::string summary, error;
-    if (!write_picture(out, filename, [&](float done) { bar.show(done); }, summary, error))
+    if (!write_picture(
+            out, filename, [&](float done) { bar.show(done); }, summary, error))
         return fail(format("cannot write \"{}\": {}", filename, error));
     // What will be read under this name is the new file.
     m_kept.erase(filename);

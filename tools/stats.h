@@ -45,15 +45,12 @@ private:
 /// Adds the seconds it lived to a stage.
 class StageTimer {
 public:
-    StageTimer(Stats& stats, Stage stage) : m_stats(stats), m_stage(stage) {}
+    StageTimer(Stats& stats, Stage stage) : m_stats(stats), m_stage(stage) { }
     ~StageTimer() { m_stats.add(m_stage, seconds()); }
     StageTimer(const StageTimer&) = delete;
     StageTimer& operator=(const StageTimer&) = delete;
 
-    double seconds() const
-    {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count();
-    }
+    double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count(); }
 
 private:
     Stats& m_stats;

@@ -282,9 +282,11 @@ HWY_INLINE void evaluate_lanes(EdgeFan& f, int j)
     if (f.on_border)
         hold_to_sides(f, g, j, x, y);
 
-    const auto neighbour = hn::Gt(hn::Load(d, f.corners.real + j), hn::Zero(d));
-    hn::Store(hn::IfThenElse(neighbour, cost_at(f, h, j, x, y), hn::Set(d, std::numeric_limits<float>::infinity())), d,
-              f.cost + j);
+    // Infinite without a neighbour, and where the numbers were too large to be told: NaN compares as false.
+    const auto infinite = hn::Set(d, std::numeric_limits<float>::infinity());
+    const auto cost = cost_at(f, h, j, x, y);
+    const auto known = hn::And(hn::Gt(hn::Load(d, f.corners.real + j), hn::Zero(d)), hn::Lt(cost, infinite));
+    hn::Store(hn::IfThenElse(known, cost, infinite), d, f.cost + j);
     hn::Store(x, d, f.x + j);
     hn::Store(y, d, f.y + j);
 }

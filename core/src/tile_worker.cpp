@@ -369,9 +369,10 @@ bool TileWorker::keeps_shape(float x, float y) const
         const Vec3 a = corner(m_star.corners, m_star.corners.z, j), b = corner(m_star.corners, m_star.corners.z, j + 1);
         const auto ex = a.x - vx, ey = a.y - vy, fx = b.x - vx, fy = b.y - vy, gx = a.x - b.x, gy = a.y - b.y;
         const auto longest = hn::Max(hn::Max(ex * ex + ey * ey, fx * fx + fy * fy), gx * gx + gy * gy);
-        const auto short_of = hn::Lt(ex * fy - fx * ey, guard * longest);
-        const auto triangle = hn::Gt(whole(m_star.corners, m_star.degree, j), hn::Zero(d));
-        ok &= hn::AllFalse(d, hn::And(short_of, triangle));
+        // Asked so that a NaN is a no.
+        const auto enough = hn::Ge(ex * fy - fx * ey, guard * longest);
+        const auto none = hn::Le(whole(m_star.corners, m_star.degree, j), hn::Zero(d));
+        ok &= hn::AllTrue(d, hn::Or(enough, none));
     }
     return ok;
 }

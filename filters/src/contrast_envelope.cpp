@@ -8,15 +8,28 @@
 
 namespace pimg {
 
+namespace {
+
+/// rest^beta. Whole exponents, the default among them, by squaring: the sweep waits for nothing else.
+float power(float rest, float beta)
+{
+    if (beta != std::floor(beta) || beta > 64.0f)
+        return std::pow(rest, beta);
+    float result = 1.0f;
+    for (unsigned n = unsigned(beta); n > 0; n /= 2) {
+        if (n % 2 == 1)
+            result *= rest;
+        rest *= rest;
+    }
+    return result;
+}
+
+}  // namespace
+
 float DetailGain::operator()(float contrast) const
 {
     const float rest = contrast < dmax ? 1.0f - contrast / dmax : 0.0f;
-    float power = rest * rest;
-    if (beta == 4.0f)  // the default, at the speed of the sweep
-        power *= power;
-    else
-        power = beta == 1.0f ? rest : std::pow(rest, beta);
-    return s0 + (1.0f - s0) * power;
+    return s0 + (1.0f - s0) * power(rest, beta);
 }
 
 std::vector<float> contrast_envelope(const Hierarchy& hierarchy, const Bands& bands, float coherence)

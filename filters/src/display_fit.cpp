@@ -9,10 +9,11 @@ namespace pimg {
 namespace {
 
 /// Range a picture should have on a display, between its 0.5 % quantiles: that of a good photographic print.
-constexpr float kDisplayStops = 7.5f;
+constexpr float kDisplayStops = 7.0f;
 constexpr float kMostContrast = 2.0f;  ///< more would show noise
 constexpr double kRangeQuantile = 0.005;
 constexpr double kWhiteQuantile = 0.999;
+constexpr double kMeanLuminance = 0.2;  ///< the picture is as light as that on the whole
 
 }  // namespace
 
@@ -94,14 +95,14 @@ void find_display_fit(const StopHistogram& histogram, HdrCompressOptions& option
     options.key = 1.0f;
     if (histogram.empty())
         return;
-    // The picture is as light on the whole as middle grey: lightness falls as the key rises.
+    // Lightness falls as the key rises.
     HdrCompressOptions trial = options;
     trial.exposure = 0.0f;
     float low = -120.0f, high = 120.0f;
     for (int i = 0; i < 40; ++i) {
         const float middle = 0.5f * (low + high);
         trial.key = std::exp2(middle);
-        (mean_lightness(histogram, trial) > std::cbrt(double(kMiddleGrey)) ? low : high) = middle;
+        (mean_lightness(histogram, trial) > std::cbrt(kMeanLuminance) ? low : high) = middle;
     }
     options.key = std::exp2(0.5f * (low + high));
 }

@@ -18,7 +18,7 @@ namespace {
 
 /// The base is scaled so that the picture would fill this many stops; fitting to the display then has
 /// contrast to spare, which goes to the details.
-constexpr float kCompressedStops = 5.5f;
+constexpr float kCompressedStops = 5.0f;
 constexpr float kLeastS0 = 0.05f;
 constexpr float kDmaxOfRange = 0.5f;  ///< largest detail as a share of the dynamic range
 

@@ -177,13 +177,15 @@ const std::vector<Option<BuildOptions>>& option_table<BuildOptions>()
 {
     using T = BuildOptions;
     static const std::vector<Option<T>> table = {
-        option<T, &T::guide>(
-            { "guide", 0, 0, "", "luma|log|rgb", "what decides the mesh; log for half/float pictures, else luma" }),
-        option<T, &T::base>({ "base", 2, kAnyInt, "faces", "", "size of the base mesh" }),
-        option<T, &T::metric>({ "metric", 0, 0, "", "volume|quadric|exact",
-                                "cost of a collapse; the last two are slow and there for comparison" }),
-        option<T, &T::incolorspace>({ "incolorspace", 0, 0, "", "",
-                                      "colour space of the picture; its metadata, else sRGB for 8 bit, else linear" }),
+        { &T::guide,
+          { "guide", 0, 0, "", "luma|log|rgb", "what decides the mesh; log for half/float pictures, else luma" } },
+        { &T::base, { "base", 2, kAnyInt, "faces", "", "size of the base mesh" } },
+        { &T::metric,
+          { "metric", 0, 0, "", "volume|quadric|exact",
+            "cost of a collapse; the last two are slow and there for comparison" } },
+        { &T::incolorspace,
+          { "incolorspace", 0, 0, "", "",
+            "colour space of the picture; its metadata, else sRGB for 8 bit, else linear" } },
     };
     return table;
 }
@@ -195,11 +197,11 @@ template<class T>
 std::vector<Option<T>> level_table()
 {
     return {
-        option<T, &T::splits>({ "splits", 0, kAnyInt, "splits", "", "vertex splits applied to the base mesh" }),
-        option<T, &T::faces>({ "faces", 2, kAnyInt, "faces", "", "triangles of the mesh" }),
-        option<T, &T::vertices>({ "vertices", 4, kAnyInt, "vertices", "", "vertices of the mesh" }),
-        option<T, &T::fraction>({ "fraction", 0, 1, "", "", "share of the picture's vertices" }),
-        option<T, &T::error>({ "error", 0, kAnyFloat, "", "", "largest collapse cost left out" }),
+        { &T::splits, { "splits", 0, kAnyInt, "splits", "", "vertex splits applied to the base mesh" } },
+        { &T::faces, { "faces", 2, kAnyInt, "faces", "", "triangles of the mesh" } },
+        { &T::vertices, { "vertices", 4, kAnyInt, "vertices", "", "vertices of the mesh" } },
+        { &T::fraction, { "fraction", 0, 1, "", "", "share of the picture's vertices" } },
+        { &T::error, { "error", 0, kAnyFloat, "", "", "largest collapse cost left out" } },
     };
 }
 
@@ -218,22 +220,20 @@ const std::vector<Option<WireframeOptions>>& option_table<WireframeOptions>()
     using T = WireframeOptions;
     static const std::vector<Option<T>> table = [] {
         std::vector<Option<T>> all = level_table<T>();
-        all.push_back(option<T, &T::overlay>({
-            "overlay", 0, 0, "", "", "draw over the level's picture instead of white" } });
-    all.push_back(option<T, &T::line>({ "line", 0.1, 100, "pixels", "", "width of the lines" }));
-    return all;
+        all.push_back({ &T::overlay, { "overlay", 0, 0, "", "", "draw over the level's picture instead of white" } });
+        all.push_back({ &T::line, { "line", 0.1, 100, "pixels", "", "width of the lines" } });
+        return all;
+    }();
+    return table;
 }
-();
-return table;
-}  // namespace pimg
 
 template<>
 const std::vector<Option<FeatureLowpassOptions>>& option_table<FeatureLowpassOptions>()
 {
     using T = FeatureLowpassOptions;
     static const std::vector<Option<T>> table = {
-        { &T::splits, { "splits", 0, kAnyInt, "splits", "", "vertex splits whose details are kept" }),
-        option<T, &T::fraction>({ "fraction", 0, 1, "", "", "the same as a share of all splits; 0.1 if neither is given" }),
+        { &T::splits, { "splits", 0, kAnyInt, "splits", "", "vertex splits whose details are kept" } },
+        { &T::fraction, { "fraction", 0, 1, "", "", "the same as a share of all splits; 0.1 if neither is given" } },
     };
     return table;
 }
@@ -243,12 +243,12 @@ const std::vector<Option<DetailEnhanceOptions>>& option_table<DetailEnhanceOptio
 {
     using T = DetailEnhanceOptions;
     static const std::vector<Option<T>> table = {
-        option<T, &T::gain>({ "gain", 0, 100, "", "", "factor on the details; 1 changes nothing" }),
-        option<T, &T::from>(
-            { "from", 0, kAnyInt, "", "", "first split amplified: share of all, or their number if above 1" }),
-        option<T, &T::to>({ "to", 0, kAnyInt, "", "", "end of the range, likewise" }),
-        option<T, &T::curve>({ "curve", 0, 0, "", "",
-                               "position:gain,position:gain,... linear in between; instead of gain, from and to" }),
+        { &T::gain, { "gain", 0, 100, "", "", "factor on the details; 1 changes nothing" } },
+        { &T::from, { "from", 0, kAnyInt, "", "", "first split amplified: share of all, or their number if above 1" } },
+        { &T::to, { "to", 0, kAnyInt, "", "", "end of the range, likewise" } },
+        { &T::curve,
+          { "curve", 0, 0, "", "",
+            "position:gain,position:gain,... linear in between; instead of gain, from and to" } },
     };
     return table;
 }
@@ -258,12 +258,12 @@ const std::vector<Option<SegmentOptions>>& option_table<SegmentOptions>()
 {
     using T = SegmentOptions;
     static const std::vector<Option<T>> table = {
-        option<T, &T::regions>({ "regions", 1, kAnyInt, "regions", "", "how many; 200 without threshold" }),
-        option<T, &T::threshold>(
-            { "threshold", 0, kAnyFloat, "", "", "cost that every border left exceeds: squared CIELAB units times pixels" }),
-        option<T, &T::output>({ "output", 0, 0, "", "labels|mean|boundaries",
-                                "numbers from 0, mean colours, or 1 at the borders" }),
-        option<T, &T::stats>({ "stats", 0, 0, "", "", "file for figures of every region: .json or else CSV" }),
+        { &T::regions, { "regions", 1, kAnyInt, "regions", "", "how many; 200 without threshold" } },
+        { &T::threshold,
+          { "threshold", 0, kAnyFloat, "", "", "cost that every border left exceeds: squared CIELAB units times pixels" } },
+        { &T::output,
+          { "output", 0, 0, "", "labels|mean|boundaries", "numbers from 0, mean colours, or 1 at the borders" } },
+        { &T::stats, { "stats", 0, 0, "", "", "file for figures of every region: .json or else CSV" } },
     };
     return table;
 }
@@ -273,21 +273,18 @@ const std::vector<Option<HdrCompressOptions>>& option_table<HdrCompressOptions>(
 {
     using T = HdrCompressOptions;
     static const std::vector<Option<T>> table = {
-        option<T, &T::s0>(
-            { "s0", 0, 1, "", "", "scale of the base and of the largest details; 0: found from the picture" }),
-        option<T, &T::beta>({ "beta", 0, 1000, "", "", "how fast smaller details are compressed less" }),
-        option<T, &T::dmax>({ "dmax", 0, 256, "stops", "", "detail that is compressed fully; 0: found" }),
-        option<T, &T::coherence>({ "coherence", 0, 1, "", "",
-                                   "share of the contrast around it that a detail is compressed for; 0: its own" }),
-        option<T, &T::saturation>(
-            { "saturation", 0, 4, "", "", "exponent of the colour ratio; 1 keeps colours, 0 is grey" }),
-        option<T, &T::fit>(
-            { "fit", 0, 0, "", "", "fit the result to the display; 0: leave it in the picture's units" }),
-        option<T, &T::contrast>({ "contrast", 0, 8, "", "", "factor on the compressed log luminance; 0: found" }),
-        option<T, &T::key>(
-            { "key", 0, kAnyFloat, "", "", "luminance after compression shown as middle grey; 0: found" }),
-        option<T, &T::white>({ "white", 0, kAnyFloat, "", "", "luminance after compression shown as white; 0: found" }),
-        option<T, &T::exposure>({ "exposure", -20, 20, "stops", "", "brightness added" }),
+        { &T::s0, { "s0", 0, 1, "", "", "scale of the base and of the largest details; 0: found from the picture" } },
+        { &T::beta, { "beta", 0, 1000, "", "", "how fast smaller details are compressed less" } },
+        { &T::dmax, { "dmax", 0, 256, "stops", "", "detail that is compressed fully; 0: found" } },
+        { &T::coherence,
+          { "coherence", 0, 1, "", "",
+            "share of the contrast around it that a detail is compressed for; 0: its own" } },
+        { &T::saturation, { "saturation", 0, 4, "", "", "exponent of the colour ratio; 1 keeps colours, 0 is grey" } },
+        { &T::fit, { "fit", 0, 0, "", "", "fit the result to the display; 0: leave it in the picture's units" } },
+        { &T::contrast, { "contrast", 0, 8, "", "", "factor on the compressed log luminance; 0: found" } },
+        { &T::key, { "key", 0, kAnyFloat, "", "", "luminance after compression shown as middle grey; 0: found" } },
+        { &T::white, { "white", 0, kAnyFloat, "", "", "luminance after compression shown as white; 0: found" } },
+        { &T::exposure, { "exposure", -20, 20, "stops", "", "brightness added" } },
     };
     return table;
 }

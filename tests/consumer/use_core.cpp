@@ -20,15 +20,15 @@ int main()
         samples.push_back(i % width < 11 ? 20.0f : 200.0f);
 
     pimg::Hierarchy hierarchy;
-    pimg::Bands bands;
-    const pimg::Guide guide { width, height, samples.data() };
+    std::vector<pimg::Bands> bands;
+    const pimg::Guide guide { width, height, { { samples.data() } } };
     const pimg::Status status = pimg::simplify(guide, {}, hierarchy, bands);
     if (!status) {
         std::fprintf(stderr, "%s\n", status.error().c_str());
         return 1;
     }
     std::vector<float> result(samples.size());
-    pimg::synthesise(hierarchy, bands, result.data());
+    pimg::synthesise(hierarchy, bands[0], result.data());
     for (std::size_t i = 0; i < samples.size(); ++i)
         if (std::abs(result[i] - samples[i]) > 1e-3f)
             return 1;

@@ -59,8 +59,8 @@ TEST_F(CommandLine, BecomesOneStepPerFileAndOperation)
 {
     Program program;
     std::string error;
-    ASSERT_TRUE(parse({ "in.png", "--level:faces=9", "-o", "a.png", "--dup", "--pop", "-d", "half", "-o", "b.exr", "--threads",
-                        "3", "--stats:format=json" },
+    ASSERT_TRUE(parse({ "in.png", "--level:faces=9", "-o", "a.png", "--dup", "--pop", "-d", "half", "-o", "b.exr",
+                        "--threads", "3", "--stats:format=json" },
                       program, error))
         << error;
     EXPECT_EQ(program.steps.size(), 7u);

@@ -72,10 +72,10 @@ class Errors(pictures.ToolTest):
 class Answers(pictures.ToolTest):
     def test_help(self):
         text = self.ok("--help")
-        for word in ("--hdr-compress[:key=value...]", "s0=0.1", "-o FILE", "--threads N"):
+        for word in ("--hdr-compress[:key=value...]", "saturation=1", "-o FILE", "--threads N"):
             self.assertIn(word, text)
         text = self.ok("-help", "hdr-compress")
-        self.assertIn("s0=0.1", text)
+        self.assertIn("saturation=1", text)
         self.assertNotIn("--level", text)
 
     def test_version(self):

@@ -93,8 +93,8 @@ class Encoding(OutputTest):
         self.assertNotEqual(spec_of("raw.png")["oiio:ColorSpace"], "sRGB")
 
     def test_eight_bit_input(self):
-        self.ok("rgb.png", "--dup", "--hdr-compress", "-o", "out.png", "-d", "float", "-o", "out.exr",
-                "--pop", "--feature-lowpass:fraction=1", "-d", "uint8", "-o", "same.png", "-d", "uint16", "-o", "same.tif")
+        self.ok("rgb.png", "--dup", "--hdr-compress", "-o", "out.png", "-d", "float", "-o", "out.exr", "--pop",
+                "--feature-lowpass:fraction=1", "-d", "uint8", "-o", "same.png", "-d", "uint16", "-o", "same.tif")
         self.assert_codes("out.png", quantised(srgb(read("out.exr"))))
         # A picture that is stored encoded is not encoded again.
         self.assert_same("rgb.png", "same.png")
@@ -124,7 +124,8 @@ class Encoding(OutputTest):
         self.assert_codes("asked.png", quantised(read("linear.exr")))
 
     def test_declared_colour_space(self):
-        self.ok("hdr.exr", "--incolorspace", "sRGB", "-o", "as_stored.png", "--tocolorspace", "linear", "-o", "linear.tif")
+        self.ok("hdr.exr", "--incolorspace", "sRGB", "-o", "as_stored.png",
+                "--tocolorspace", "linear", "-o", "linear.tif")
         self.assert_codes("as_stored.png", quantised(read("hdr.exr")))
         inside = read("hdr.exr") < 1
         self.assertTrue(np.allclose(srgb(read("linear.tif"))[inside], read("hdr.exr")[inside], atol=1e-4))
@@ -142,7 +143,8 @@ class Encoding(OutputTest):
                                 (("--tocolorspace", "sepia"), ("sepia", "working"))):
             self.fails("hdr.exr", *arguments, "-o", "no.png", says=says, env=ocio)
         if os.environ.get("OIIOTOOL"):
-            oiiotool("linear.exr", "--iscolorspace", "working", "--ociodisplay", "Screen", "Film", "-o", "peer.png", env=ocio)
+            oiiotool("linear.exr", "--iscolorspace", "working", "--ociodisplay", "Screen", "Film", "-o", "peer.png",
+                     env=ocio)
             self.assert_codes("out.png", codes("peer.png"))
 
 

@@ -6,10 +6,9 @@
 // option_table, and define the table in options.cpp. Nothing else lists options.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
-#include <type_traits>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -27,23 +26,22 @@ struct OptionRule {
 /// A value of any type an option may have.
 using OptionValue = std::variant<bool, int, float, std::string>;
 
-/// One option of the struct T. Made by option().
+/// One option of the struct T.
 template<class T>
 struct Option {
-    OptionRule rule;
-    OptionValue (*get)(const T& options);
-    void (*set)(T& options, const OptionValue& value);  ///< of the type get() returns
-};
+    /// `member` of T or of a base of it: bool, int, float or std::string.
+    template<class Owner, class Value>
+    Option(Value Owner::*member, const OptionRule& its_rule)
+        : rule(its_rule),
+          get([member](const T& options) { return OptionValue(options.*member); }),
+          set([member](T& options, const OptionValue& value) { options.*member = std::get<Value>(value); })
+    {
+    }
 
-template<class T, auto member>
-Option<T> option(const OptionRule& rule)
-{
-    using Value = std::decay_t<decltype(std::declval<T>().*member)>;
-    return { rule, [](const T& options) { return OptionValue(options.*member); },
-             [](T& options, const OptionValue& value) {
-                 options.*member = std::get<Value>(value);
-             } };
-}
+    OptionRule rule;
+    std::function<OptionValue(const T&)> get;
+    std::function<void(T&, const OptionValue&)> set;  ///< of the type get() returns
+};
 
 /// What --help, documentation and Python show of an option.
 struct OptionInfo {
@@ -119,7 +117,7 @@ struct SegmentOptions {
 /// are taken from the picture; resolve_hdr_compress() tells them.
 struct HdrCompressOptions {
     float s0 = 0.0f;         ///< scale of the base and of the largest details; 0: found
-    float beta = 4.0f;       ///< how fast smaller details are compressed less
+    float beta = 12.0f;      ///< how fast smaller details are compressed less
     float dmax = 0.0f;       ///< detail compressed fully, in stops; 0: found
     float coherence = 1.0f;  ///< share of the contrast around it that a detail is compressed for; 0: Eq. (2) as printed
     float saturation = 1.0f;  ///< exponent of the colour ratio; 1 keeps it, 0 is grey
@@ -153,6 +151,12 @@ bool parse_option(const OptionRule& rule, std::string_view text, OptionValue& va
 bool check_option(const OptionRule& rule, const OptionValue& value, std::string& error);
 OptionInfo describe_option(const OptionRule& rule, const OptionValue& default_value);
 std::string unknown_option(std::string_view key, const std::vector<std::string_view>& known);
+
+template<class T>
+OptionValue get_option(const T& options, const Option<T>& option)
+{
+    return option.get(options);
+}
 
 template<class T>
 bool set_option(T& options, std::string_view key, std::string_view value, std::string& error)

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tone mapping: Eq. (2), scale, colour, edges, and pictures with something wrong in them.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <pimg/imagebufalgo.h>
+
+#include "filters/pictures.h"
+
+namespace pimg {
+namespace {
+
+using namespace test;
+using OIIO::ImageBuf;
+
+ImageBuf compressed(const ImageBuf& src, const HdrCompressOptions& options = {})
+{
+    ImageBuf dst;
+    EXPECT_FILTER(dst, ImageBufAlgo::hdr_compress(dst, src, options));
+    return dst;
+}
+
+TEST(HdrCompress, IsDisplayLinear)
+{
+    const ImageBuf dst = compressed(hdr_scene());
+    EXPECT_EQ(dst.spec().format, OIIO::TypeFloat);
+    for (float v : pixels(dst)) {
+        ASSERT_GE(v, 0.0f);
+        ASSERT_LE(v, 1.0f);
+    }
+    const std::vector<float> l = lightness(dst);
+    EXPECT_GT(*std::max_element(l.begin(), l.end()), 80.0f);
+    std::vector<float> sorted = l;
+    std::sort(sorted.begin(), sorted.end());
+    EXPECT_GT(sorted[sorted.size() / 2], 20.0f);
+    EXPECT_LT(sorted[sorted.size() / 2], 80.0f);
+}
+
+TEST(HdrCompress, ScaleOfTheInputDoesNotMatter)
+{
+    const std::vector<float> expected = lightness(compressed(hdr_scene()));
+    for (float scale : { 0.25f, 2.0f, 1024.0f }) {
+        const std::vector<float> l = lightness(compressed(hdr_scene(96, 64, OIIO::TypeFloat, 3, scale)));
+        double sum = 0;
+        for (std::size_t i = 0; i < l.size(); ++i)
+            sum += std::fabs(l[i] - expected[i]);
+        EXPECT_LT(sum / double(l.size()), 0.5) << scale;
+    }
+}
+
+/// Eq. (2) as printed, on a picture of one split's worth of structure: with coherence = 0, s0 scales base and details
+/// that reach dmax, and small details stay.
+TEST(HdrCompress, Equation2)
+{
+    const ImageBuf src = hdr_scene(64, 48, OIIO::TypeFloat, 1);
+    HdrCompressOptions options;
+    options.coherence = 0.0f;
+    options.fit = false;
+    options.s0 = 0.25f;
+    options.beta = 0.0f;  // h = 1 for every detail below dmax: only the base is scaled
+    options.dmax = 200.0f;
+    const std::vector<float> a = pixels(src), b = pixels(compressed(src, options));
+    options.beta = 1000.0f;  // h = s0 for every detail of note: everything is scaled
+    options.dmax = 0.01f;
+    const std::vector<float> c = pixels(compressed(src, options));
+    // log2 of c is a quarter of log2 of a, up to the rounding of details far under 0.01 stops.
+    for (std::size_t i = 0; i < a.size(); ++i)
+        ASSERT_NEAR(std::log2(c[i]), 0.25f * std::log2(a[i]), 0.05f);
+    // The base carries the coarse structure, so scaling it alone still narrows the range.
+    const auto range = [](const std::vector<float>& v) {
+        const auto [low, high] = std::minmax_element(v.begin(), v.end());
+        return std::log2(*high / *low);
+    };
+    EXPECT_LT(range(c), 0.26f * range(a));
+    EXPECT_GT(range(b), range(c));
+}
+
+TEST(HdrCompress, HueIsKept)
+{
+    const ImageBuf src = hdr_scene();
+    const std::vector<float> a = pixels(src), b = pixels(compressed(src));
+    for (std::size_t i = 0; i < a.size(); i += 3) {
+        if (std::max({ b[i], b[i + 1], b[i + 2] }) > 0.98f)
+            continue;  // brought into gamut
+        ASSERT_NEAR(a[i + 1] / a[i], b[i + 1] / b[i], 2e-3f);
+        ASSERT_NEAR(a[i + 2] / a[i], b[i + 2] / b[i], 2e-3f);
+    }
+    HdrCompressOptions grey;
+    grey.saturation = 0.0f;
+    const std::vector<float> g = pixels(compressed(src, grey));
+    for (std::size_t i = 0; i < g.size(); i += 3) {
+        ASSERT_NEAR(g[i], g[i + 1], 1e-5f);
+        ASSERT_NEAR(g[i], g[i + 2], 1e-5f);
+    }
+}
+
+/// A step of three decades: the plateaus must stay flat right up to the edge.
+TEST(HdrCompress, NoHaloBesideAStep)
+{
+    ImageBuf src = picture(128, 96, 1, OIIO::TypeFloat);
+    for (int y = 0; y < 96; ++y)
+        for (int x = 0; x < 128; ++x) {
+            const float texture = std::pow(10.0f, 0.04f * std::sin(2.0f * 3.14159265f * (float(y) + 0.5f) / 8.0f));
+            const float v = (x < 64 ? 0.1f : 100.0f) * texture;
+            src.setpixel(x, y, &v);
+        }
+    const std::vector<float> l = lightness(compressed(src));
+    std::vector<float> profile(128, 0.0f);
+    for (int y = 16; y < 80; ++y)
+        for (int x = 0; x < 128; ++x)
+            profile[std::size_t(x)] += l[std::size_t(y * 128 + x)] / 64.0f;
+    const float dark = profile[20], bright = profile[108], step = bright - dark;
+    ASSERT_GT(step, 20.0f);
+    for (std::size_t x = 8; x < 64; ++x)
+        EXPECT_NEAR(profile[x], dark, 0.02f * step) << x;
+    for (std::size_t x = 64; x < 120; ++x)
+        EXPECT_NEAR(profile[x], bright, 0.02f * step) << x;
+}
+
+/// The rest of the picture must stay within 1 L* of the clean result, whatever is wrong with a few pixels.
+TEST(HdrCompress, BadPixelsStayAlone)
+{
+    const ImageBuf clean = hdr_scene();
+    const std::vector<float> expected = lightness(compressed(clean));
+    constexpr float kInf = std::numeric_limits<float>::infinity();
+    struct Case {
+        const char* name;
+        float value;
+        int size;
+    };
+    for (const Case& bad : { Case { "NaN", std::nanf(""), 1 }, Case { "Inf", kInf, 1 }, Case { "-Inf", -kInf, 1 },
+                             Case { "negatives", -0.01f, 4 }, Case { "1e30", 1e30f, 1 }, Case { "black", 0.0f, 1 } }) {
+        ImageBuf src = clean;
+        const float v[3] = { bad.value, bad.value, bad.value };
+        for (int y = 0; y < bad.size; ++y)
+            for (int x = 0; x < bad.size; ++x)
+                src.setpixel(80 + x, 50 + y, v);
+        const ImageBuf dst = compressed(src);
+        for (float p : pixels(dst))
+            ASSERT_TRUE(std::isfinite(p)) << bad.name;
+        const std::vector<float> l = lightness(dst);
+        float worst = 0.0f;
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 96; ++x) {
+                // A picture of 6144 pixels is small: beside the bad ones the mesh itself differs.
+                const bool near = std::abs(x + 5 - 80) < bad.size + 8 && std::abs(y - 2 - 50) < bad.size + 8;
+                if (!near)
+                    worst = std::max(worst, std::fabs(l[std::size_t(y * 96 + x)] - expected[std::size_t(y * 96 + x)]));
+            }
+        EXPECT_LT(worst, 1.0f) << bad.name;
+    }
+}
+
+TEST(HdrCompress, PicturesWithNothingInThem)
+{
+    for (float value : { 0.0f, 0.18f, -1.0f, 1e-30f, 60000.0f }) {
+        ImageBuf src = picture(24, 16, 3, OIIO::TypeFloat);
+        const float v[3] = { value, value, value };
+        for (int y = 0; y < 16; ++y)
+            for (int x = 0; x < 24; ++x)
+                src.setpixel(x, y, v);
+        for (float p : pixels(compressed(src))) {
+            ASSERT_TRUE(std::isfinite(p)) << value;
+            ASSERT_GE(p, 0.0f);
+            ASSERT_LE(p, 1.0f);
+        }
+        const float white[3] = { 1.0f, 1.0f, 1.0f };
+        src.setpixel(11, 7, white);
+        for (float p : pixels(compressed(src)))
+            ASSERT_TRUE(std::isfinite(p)) << value;
+    }
+}
+
+TEST(HdrCompress, EightBitInputIsDecodedFirst)
+{
+    // The same light, once linear and once encoded, must come out alike.
+    const ImageBuf linear = hdr_scene(96, 64, OIIO::TypeFloat, 3, 0.002f);
+    ImageBuf encoded = picture(96, 64, 3, OIIO::TypeUInt16, 5, -2);
+    encoded.specmod().attribute("oiio:ColorSpace", "sRGB");
+    for (int y = linear.ybegin(); y < linear.yend(); ++y)
+        for (int x = linear.xbegin(); x < linear.xend(); ++x) {
+            float p[3];
+            linear.getpixel(x, y, p);
+            for (float& v : p)
+                v = v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f;
+            encoded.setpixel(x, y, p);
+        }
+    const std::vector<float> a = lightness(compressed(linear)), b = lightness(compressed(encoded));
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        sum += std::fabs(a[i] - b[i]);
+    EXPECT_LT(sum / double(a.size()), 1.5);
+}
+
+TEST(HdrCompress, ResolvedOptionsRepeatTheResult)
+{
+    const ImageBuf src = hdr_scene();
+    ProgressiveImage progressive;
+    ASSERT_TRUE(progressive.build(src));
+    HdrCompressOptions options;
+    std::string error;
+    ASSERT_TRUE(ImageBufAlgo::resolve_hdr_compress(progressive, options, error)) << error;
+    EXPECT_GT(options.s0, 0.0f);
+    EXPECT_GT(options.dmax, 0.0f);
+    ImageBuf a, b;
+    EXPECT_FILTER(a, ImageBufAlgo::hdr_compress(a, progressive));
+    EXPECT_FILTER(b, ImageBufAlgo::hdr_compress(b, progressive, options));
+    const std::vector<float> p = pixels(a), q = pixels(b);
+    for (std::size_t i = 0; i < p.size(); ++i)
+        ASSERT_NEAR(p[i], q[i], 1e-4f);
+}
+
+}  // namespace
+}  // namespace pimg
