@@ -28,6 +28,7 @@ struct OutputPicture {
     const OIIO::ImageBuf& pixels;
     PixelTypes types;  ///< wanted; the format may know better
     bool encode_srgb;  ///< encode for display if the format stores whole numbers
+    bool labels;       ///< uint32 numbers, to be stored as they are; type UNKNOWN: as the format holds them best
 };
 
 /// The type `-d` may be given, UNKNOWN for any other word.

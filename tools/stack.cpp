@@ -103,7 +103,11 @@ bool Session::write(const std::string& filename)
 {
     const StageTimer timer(stats, Stage::write);
     const Picture& picture = top();
-    OutputPicture out { *picture.pixels, picture.stored, picture.linear_light && !output.raw };
+    OutputPicture out { *picture.pixels, picture.stored, picture.linear_light && !output.raw, picture.labels };
+    if (picture.labels) {
+        out.types = { OIIO::TypeUnknown, {} };
+        out.encode_srgb = false;
+    }
     if (output.type != OIIO::TypeUnknown)
         out.types = { output.type, {} };
     ProgressBar bar(label("writing", filename));
@@ -165,6 +169,7 @@ bool Session::filter(const Filter& run, Meaning meaning)
     picture.hierarchy->options.incolorspace.clear();
     if (meaning == Meaning::display_linear)
         picture.linear_light = true;
+    picture.labels = result->spec().format == OIIO::TypeUInt32 && result->spec().find_attribute("pimg:regions");
     say(format("{}: filtered, {:.3f} s", picture.name, timer.seconds()));
     top() = picture;
     return true;

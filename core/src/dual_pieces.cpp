@@ -7,9 +7,30 @@
 
 namespace pimg {
 
+namespace {
+
+/// The vertex of the finest mesh each mesh pixel belongs to: its own or, of the corners of the face a pixel without one
+/// lies in, that with the largest weight. kGhost in a damaged hierarchy.
+std::vector<Index> finest_pieces(const Hierarchy& h)
+{
+    std::vector<Index> vertex_at(h.mesh_pixels(), kGhost);
+    for (Index v = 0; v < h.vertices(); ++v)
+        if (h.pixels[v] < vertex_at.size())
+            vertex_at[h.pixels[v]] = v;
+    for (const PixelStencil& s : h.between) {
+        const float wa = 1.0f - s.wb - s.wc;
+        const Index corner = wa >= s.wb && wa >= s.wc ? s.a : s.wb >= s.wc ? s.b : s.c;
+        if (s.pixel < vertex_at.size() && corner < vertex_at.size())
+            vertex_at[s.pixel] = vertex_at[corner];
+    }
+    return vertex_at;
+}
+
+}  // namespace
+
 Status DualPieces::from_hierarchy(const Hierarchy& h, DualPieces& pieces)
 {
-    if (h.pixels.size() != h.vertices() || h.vertices() != h.mesh_pixels())
+    if (h.pixels.size() != h.vertices() || h.vertices() + h.between.size() != h.mesh_pixels())
         return Status::failure("hierarchy: sizes do not agree");
     DualPieces d;
     d.m_width = h.width;
@@ -24,20 +45,23 @@ Status DualPieces::from_hierarchy(const Hierarchy& h, DualPieces& pieces)
         d.m_parents[d.m_base + i] = h.splits[i].s;
     }
 
-    const Index columns = Index(h.mesh_width());
-    d.m_vertex_of.resize(std::size_t(h.width) * std::size_t(h.height));
+    const std::vector<Index> vertex_at = finest_pieces(h);
+    const std::size_t width = std::size_t(h.width), height = std::size_t(h.height);
+    d.m_vertex_of.reserve(width * height);
     d.m_span.assign(vertices, 0);
-    for (Index v = 0; v < vertices; ++v) {
-        const Index x = h.pixels[v] % columns, y = h.pixels[v] / columns;
-        if (x < Index(h.width) && y < Index(h.height)) {
-            d.m_vertex_of[std::size_t(y) * std::size_t(h.width) + x] = v;
-            d.m_span[v] = 1;
+    for (std::size_t y = 0; y < height; ++y)
+        for (std::size_t x = 0; x < width; ++x) {
+            const Index v = vertex_at[y * std::size_t(h.mesh_width()) + x];
+            if (v == kGhost)
+                return Status::failure("hierarchy: a pixel belongs to no vertex");
+            d.m_vertex_of.push_back(v);
+            ++d.m_span[v];
         }
-    }
+    std::vector<Index> own = d.m_span;
     for (Index v = vertices; v-- > d.m_base;)
         d.m_span[d.m_parents[v]] += d.m_span[v];
 
-    // Each vertex's run: itself first, then its children's runs, the youngest next to it. Taking the children
+    // Each vertex's run: its own pixels first, then its children's runs, the youngest next to it. Taking the children
     // from old to young, each gets the end of what is left of its parent's run.
     d.m_first.resize(vertices);
     std::vector<Index> left = d.m_span;
@@ -53,8 +77,10 @@ Status DualPieces::from_hierarchy(const Hierarchy& h, DualPieces& pieces)
         }
     }
     d.m_order.resize(d.m_vertex_of.size());
-    for (Index p = 0; p < Index(d.m_vertex_of.size()); ++p)
-        d.m_order[d.m_first[d.m_vertex_of[p]]] = p;
+    for (Index p = Index(d.m_vertex_of.size()); p-- > 0;) {
+        const Index v = d.m_vertex_of[p];
+        d.m_order[d.m_first[v] + --own[v]] = p;
+    }
     pieces = std::move(d);
     return {};
 }

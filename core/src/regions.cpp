@@ -314,6 +314,12 @@ std::vector<Index> RegionTree::labels(Index regions) const
     return result;
 }
 
+std::size_t RegionTree::memory() const
+{
+    return m_leaf_of.capacity() * sizeof(Index) + m_merges.capacity() * sizeof(Merge)
+           + m_costs.capacity() * sizeof(float);
+}
+
 Index RegionTree::regions_above(float threshold) const
 {
     const auto end = std::upper_bound(m_costs.begin(), m_costs.end(), threshold);

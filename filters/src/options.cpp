@@ -180,9 +180,12 @@ const std::vector<Option<BuildOptions>>& option_table<BuildOptions>()
         { &T::guide,
           { "guide", 0, 0, "", "luma|log|rgb", "what decides the mesh; log for half/float pictures, else luma" } },
         { &T::base, { "base", 2, kAnyInt, "faces", "", "size of the base mesh" } },
+        { &T::metric,
+          { "metric", 0, 0, "", "volume|quadric|exact",
+            "cost of a collapse; the last two are slow, to compare" } },
         { &T::incolorspace,
           { "incolorspace", 0, 0, "", "",
-            "colour space of the picture; its metadata, else sRGB for 8 bit, else linear" } },
+            "colour space of the picture; metadata, else sRGB for 8 bit, else linear" } },
         { &T::mesh, { "mesh", 0, 0, "", "full|adaptive", "a vertex for every pixel, or fewer: faster, still exact" } },
         { &T::density, { "density", 1e-6, 1, "", "", "share of the pixels an adaptive mesh keeps" } },
         { &T::control,
@@ -247,6 +250,24 @@ const std::vector<Option<DetailEnhanceOptions>>& option_table<DetailEnhanceOptio
         { &T::gain, { "gain", 0, 100, "", "", "factor on the details; 1 changes nothing" } },
         { &T::from, { "from", 0, kAnyInt, "", "", "first split amplified: share of all, or their number if above 1" } },
         { &T::to, { "to", 0, kAnyInt, "", "", "end of the range, likewise" } },
+        { &T::curve,
+          { "curve", 0, 0, "", "",
+            "position:gain,position:gain,... linear in between; instead of gain, from and to" } },
+    };
+    return table;
+}
+
+template<>
+const std::vector<Option<SegmentOptions>>& option_table<SegmentOptions>()
+{
+    using T = SegmentOptions;
+    static const std::vector<Option<T>> table = {
+        { &T::regions, { "regions", 1, kAnyInt, "regions", "", "how many; 200 without threshold" } },
+        { &T::threshold,
+          { "threshold", 0, kAnyFloat, "", "", "cost that every border left exceeds: squared CIELAB units times pixels" } },
+        { &T::output,
+          { "output", 0, 0, "", "labels|mean|boundaries", "numbers from 0, mean colours, or 1 at the borders" } },
+        { &T::stats, { "stats", 0, 0, "", "", "file for figures of every region: .json or else CSV" } },
     };
     return table;
 }

@@ -153,6 +153,10 @@ bool ProgressiveImage::Data::simplify_guide(const ParallelFor& parallel, const P
     Guide guide { channels[0].width, channels[0].height, {} };
     for (const Raster& channel : channels)
         guide.channels.push_back({ channel.samples.data() });
+    if (options.metric != "volume" && options.mesh == "adaptive") {
+        error = "metric=" + options.metric + ": expected volume with mesh=adaptive";
+        return false;
+    }
     InitialMesh initial;
     if (!find_initial_mesh(guide, parallel, progress, initial, error))
         return false;
@@ -160,6 +164,9 @@ bool ProgressiveImage::Data::simplify_guide(const ParallelFor& parallel, const P
 
     SimplifyOptions simplify_options;
     simplify_options.base_faces = Index(options.base);
+    simplify_options.metric = options.metric == "quadric" ? Metric::quadric
+                              : options.metric == "exact" ? Metric::exact
+                                                          : Metric::volume;
     simplify_options.parallel = parallel;
     simplify_options.progress = progress;
     if (initial.vertices() > 0)
@@ -251,6 +258,8 @@ std::size_t ProgressiveImage::Data::memory()
     if (m_channels != nullptr)
         for (const Bands& bands : m_channels->bands)
             total += bytes(bands);
+    if (m_regions != nullptr)
+        total += m_regions->memory();
     if (m_envelope != nullptr)
         total += m_envelope->capacity() * sizeof(float);
     return total;

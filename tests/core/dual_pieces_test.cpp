@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <pimg/dual_pieces.h>
+#include <pimg/sampling.h>
 #include <pimg/simplify.h>
 
 namespace {
@@ -178,6 +179,41 @@ TEST(DualPieces, HandleThinAndConstantPictures)
             for (Index l : labels)
                 EXPECT_LT(l, b.pieces.count(level));
         }
+    }
+}
+
+TEST(DualPieces, ShareOutThePixelsBetweenTheVerticesOfASimplerMesh)
+{
+    const int w = 40, h = 30;
+    const std::vector<float> z = picture(w, h);
+    const Guide guide { w, h, { { z.data() } } };
+    InitialMesh initial;
+    SamplingOptions sampling;
+    sampling.density = 0.25;
+    ASSERT_TRUE(sample(guide, sampling, initial).ok());
+    SimplifyOptions options;
+    options.initial = &initial;
+    Hierarchy hierarchy;
+    std::vector<Bands> bands;
+    ASSERT_TRUE(simplify(guide, options, hierarchy, bands).ok());
+    ASSERT_LT(hierarchy.vertices(), Index(w * h / 2));
+    DualPieces pieces;
+    ASSERT_TRUE(DualPieces::from_hierarchy(hierarchy, pieces).ok());
+    const std::vector<Index> finest = pieces.labels(pieces.levels());
+    for (Index v = 0; v < hierarchy.vertices(); ++v)
+        EXPECT_EQ(finest[hierarchy.pixels[v]], v);
+    std::vector<Index> finer = finest;
+    for (Level level : { hierarchy.levels() / 2, hierarchy.levels() / 10, Level(0) }) {
+        const std::vector<Index> labels = pieces.labels(level), sizes = pieces.sizes(level);
+        std::vector<Index> counted(pieces.count(level), 0);
+        for (std::size_t p = 0; p < labels.size(); ++p) {
+            ASSERT_LT(labels[p], counted.size());
+            ++counted[labels[p]];
+            EXPECT_EQ(labels[p], pieces.ancestor(finer[p], level));
+        }
+        EXPECT_EQ(counted, sizes);
+        EXPECT_EQ(std::count(sizes.begin(), sizes.end(), 0u), 0);
+        finer = labels;
     }
 }
 

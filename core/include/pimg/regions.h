@@ -52,6 +52,8 @@ public:
     /// Cost of the merges, cheapest first; made monotone.
     const std::vector<float>& costs() const { return m_costs; }
 
+    std::size_t memory() const;
+
 private:
     friend class RegionMerger;
     struct Merge {

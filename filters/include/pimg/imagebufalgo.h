@@ -67,6 +67,7 @@ ImageBuf feature_lowpass(const ProgressiveImage& src, const FeatureLowpassOption
                          int nthreads = 0);
 
 /// Multiplies the details of a range of splits by `gain` (paper, section 4.1). gain = 1: the source, bit for bit.
+/// With a curve the gain depends on the position in the hierarchy.
 /// dst: floating point; results may exceed the source's range.
 bool detail_enhance(ImageBuf& dst, const ImageBuf& src, const DetailEnhanceOptions& options = {}, ROI roi = {},
                     int nthreads = 0);
@@ -91,6 +92,20 @@ bool wireframe(ImageBuf& dst, const ProgressiveImage& src, const WireframeOption
                int nthreads = 0);
 ImageBuf wireframe(const ImageBuf& src, const WireframeOptions& options = {}, ROI roi = {}, int nthreads = 0);
 ImageBuf wireframe(const ProgressiveImage& src, const WireframeOptions& options = {}, ROI roi = {}, int nthreads = 0);
+
+/// Partitions the picture into connected regions that look alike, by merging its pieces, most alike first (paper, section 4.2). Colours
+/// are compared in CIELAB: of linear light, with the median luminance at 0.18 if the picture is
+/// scene-linear and so has no white. The merges are kept with the ProgressiveImage: other numbers
+/// of regions cost one pass, and coarser regions are unions of finer ones. Exactly `regions` of them, 4-connected.
+///   labels      one channel of region numbers from 0, in order of their first pixel, row by row, not scaled to any range. dst: uint32.
+///   mean        every colour channel at its mean over the region, as stored; special samples count as what is around them.
+///   boundaries  one channel, 1 where the right or lower neighbour is in another region, else 0.
+/// stats=FILE writes area, centre, bounding box, and mean and deviation of every channel, for each region.
+bool segment(ImageBuf& dst, const ImageBuf& src, const SegmentOptions& options = {}, ROI roi = {}, int nthreads = 0);
+bool segment(ImageBuf& dst, const ProgressiveImage& src, const SegmentOptions& options = {}, ROI roi = {},
+             int nthreads = 0);
+ImageBuf segment(const ImageBuf& src, const SegmentOptions& options = {}, ROI roi = {}, int nthreads = 0);
+ImageBuf segment(const ProgressiveImage& src, const SegmentOptions& options = {}, ROI roi = {}, int nthreads = 0);
 
 /// Paints the picture with brush strokes (paper, section 5.2): one for every base vertex and for both vertices of every
 /// split, from coarse to fine, placed and sized by their dual pieces, bent along the edges, and left out where they

@@ -70,6 +70,7 @@ std::vector<OptionInfo> describe_options();
 struct BuildOptions {
     std::string guide;         ///< luma, log or rgb; empty: log for half/float pictures, else luma
     int base = 128;            ///< faces of the base mesh
+    std::string metric = "volume";  ///< cost of a collapse; quadric and exact are slow, for comparison
     std::string incolorspace;  ///< colour space of the picture; empty: its oiio:ColorSpace, else sRGB for 8 bit,
                                ///< else scene-linear
     std::string mesh = "full";         ///< full: one vertex per pixel; adaptive: fewer, and a residual (section 6)
@@ -102,6 +103,17 @@ struct DetailEnhanceOptions {
     float gain = 2.0f;
     float from = 0.1f;  ///< first split amplified: a share of all splits, or a number of splits if above 1
     float to = 1.0f;    ///< end of the range, likewise
+    /// Gain as a function of the position, instead of the three above: "0:1,0.1:1,0.2:3,1:3" is linear between those
+    /// places and constant outside. Positions as for `from`, never falling; the same twice is a jump.
+    std::string curve;
+};
+
+/// Merges adjacent pieces of the picture into regions (paper, section 4.2).
+struct SegmentOptions {
+    int regions = -1;               ///< how many; 200 if threshold is not given either
+    float threshold = -1.0f;        ///< merge until every border costs more: squared CIELAB units times pixels
+    std::string output = "labels";  ///< labels, mean or boundaries
+    std::string stats;              ///< file for figures of every region, .json or else CSV; empty: none
 };
 
 /// HDR compression (paper, section 5.1, Eq. 2) with contrast envelope and automatic exposure. Values of 0 marked "found"
@@ -169,6 +181,8 @@ template<>
 const std::vector<Option<DetailEnhanceOptions>>& option_table<DetailEnhanceOptions>();
 template<>
 const std::vector<Option<HdrCompressOptions>>& option_table<HdrCompressOptions>();
+template<>
+const std::vector<Option<SegmentOptions>>& option_table<SegmentOptions>();
 template<>
 const std::vector<Option<PaintOptions>>& option_table<PaintOptions>();
 template<>
