@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Structure tensors on a pyramid. Each level knows directions of its own scale; where it sees nothing but noise,
-// the next coarser one decides. So an edge keeps its exact direction and a flat sky is swept
+// or what runs in all directions, the next coarser one decides. So an edge keeps its exact direction and a flat sky is swept
 // by the directions of what borders it, without a gap in between.
 #include <pimg/direction.h>
 
@@ -157,8 +157,9 @@ DirectionField::DirectionField(const Planes& guides, const ParallelFor& parallel
         for_rows(parallel, level.height, [&](int y) {
             for (int x = 0; x < level.width; ++x) {
                 const Tensor t = level.row(y)[x];
-                const float energy = t.xx + t.yy, trust = energy / (energy + floor);
                 const Vec2 own = edge_direction(t), far = from_coarser(coarse, x, y);
+                const float energy = t.xx + t.yy, one_way = std::sqrt(own.x * own.x + own.y * own.y);
+                const float trust = one_way * energy / (energy + floor);
                 fine.row(y)[x] = { trust * own.x + (1 - trust) * far.x, trust * own.y + (1 - trust) * far.y };
             }
         });

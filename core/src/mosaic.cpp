@@ -101,13 +101,19 @@ void lay_mosaic(const Tiling& tiling, Index tiles, const MosaicSettings& setting
     run(settings.parallel, channels.size(), [&](std::size_t c) {
         float* samples = channels[c];
         std::vector<double> sums(tiles, 0.0), counts(tiles, 0.0);
-        for (std::size_t i = 0; i < tiling.tile.size(); ++i) {
-            sums[tiling.tile[i]] += double(samples[i]);
-            counts[tiling.tile[i]] += 1.0;
-        }
+        std::vector<float> joints(tiles, 0.0f);
         for (std::size_t i = 0; i < tiling.tile.size(); ++i) {
             const Index t = tiling.tile[i];
-            const float mean = float(sums[t] / counts[t]), depth = tiling.inside[i] - 0.5f * settings.grout;
+            sums[t] += double(samples[i]);
+            counts[t] += 1.0;
+            joints[t] = std::max(joints[t], tiling.inside[i]);
+        }
+        // Half a joint's width; slivers keep two thirds of themselves.
+        for (float& joint : joints)
+            joint = std::min(0.5f * settings.grout, joint / 3.0f);
+        for (std::size_t i = 0; i < tiling.tile.size(); ++i) {
+            const Index t = tiling.tile[i];
+            const float mean = float(sums[t] / counts[t]), depth = tiling.inside[i] - joints[t];
             float shade = mean;
             if (settings.bevel > 0.0f && depth < settings.bevel) {
                 // The slope falls towards the joint; it is lit where it faces the upper left.

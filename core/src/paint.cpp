@@ -17,6 +17,9 @@ namespace {
 constexpr int kTile = 64;
 constexpr float kFar = 1e30f;
 
+/// Shares of the canvas showing through that count as a gap in a stroke, and as a hole.
+constexpr float kGap = 0.1f, kHole = 0.3f;
+
 /// Pixels [x0, x1) x [y0, y1).
 struct Box {
     int x0, y0, x1, y1;
@@ -85,14 +88,19 @@ public:
         : m_tile(tile), m_brush(brush), m_settings(settings), m_stop(stop), m_canvas(canvas)
     {
         std::fill(std::begin(m_distance), std::end(m_distance), kFar);
+        std::fill(std::begin(m_bare), std::end(m_bare), 1.0f);
     }
 
     void paint(const Strokes& strokes, Index i, const std::vector<std::vector<float>>& colors);
+
+    /// After all strokes: shows the ground where there is too little paint.
+    void fill_holes();
 
 private:
     void measure(Vec2 a, Vec2 b, float start, bool first, bool last, Box box);
     void look_up(const Stroke& stroke, float length, Box box);
     void stop_at_edges(const Shade& shade, Box box);
+    void note_cover(Box box);
     void blend(const std::vector<std::vector<float>>& colors, Index i, float brightness, float thickness, Box box);
     int slot(int x, int y) const { return (y - m_tile.y0) * kTile + (x - m_tile.x0); }
 
@@ -103,6 +111,7 @@ private:
     Canvas& m_canvas;
     // Per pixel of the tile: squared distance from the middle line, and where beside it; then alpha and height.
     float m_distance[kTile * kTile], m_along[kTile * kTile], m_across[kTile * kTile];
+    float m_bare[kTile * kTile];  ///< share of the canvas that opaque strokes would leave
 };
 
 /// Takes over the pixels nearer to segment a -> b than to any before. The first and last segment
@@ -131,7 +140,8 @@ void TilePainter::measure(Vec2 a, Vec2 b, float start, bool first, bool last, Bo
     }
 }
 
-/// Turns places beside the line into alpha (kept in m_along) and height (in m_across).
+/// Turns places beside the line into alpha (kept in m_along, and for the relief in m_distance, which stays kFar where there
+/// is no paint) and height (in m_across).
 void TilePainter::look_up(const Stroke& stroke, float length, Box box)
 {
     const float half = 0.5f * stroke.width, total = length + stroke.width, per_width = 1.0f / stroke.width;
@@ -145,11 +155,10 @@ void TilePainter::look_up(const Stroke& stroke, float length, Box box)
         for (int k = 0; k < box.x1 - box.x0; ++k) {
             if (distance[k] >= kFar)
                 continue;
-            distance[k] = kFar;
             const float s = along[k] + half, v = across[k];
             const float inside = std::min(std::min(s, total - s), half - std::fabs(v)) + 0.5f;
             if (inside <= 0.0f) {
-                along[k] = 0.0f;
+                distance[k] = kFar;
                 continue;
             }
             const float u = s < zone             ? s * per_zone
@@ -158,7 +167,7 @@ void TilePainter::look_up(const Stroke& stroke, float length, Box box)
             const Paint paint = mask.at(u, v * per_width + 0.5f);
             along[k] = paint.alpha * std::min(inside, 1.0f) * m_settings.opacity;
             across[k] = paint.height;
-            distance[k] = 0.0f;
+            distance[k] = along[k];
         }
     }
 }
@@ -168,8 +177,12 @@ void TilePainter::stop_at_edges(const Shade& shade, Box box)
     for (int y = box.y0; y < box.y1; ++y) {
         const int row = slot(box.x0, y);
         for (int k = 0; k < box.x1 - box.x0; ++k)
-            if (m_distance[row + k] < kFar && m_along[row + k] > 0.0f)
-                m_along[row + k] *= m_stop->share(shade, box.x0 + k, y);
+            if (m_distance[row + k] < kFar && m_along[row + k] > 0.0f) {
+                // The body of the paint reaches a little beyond: no pits along edges.
+                const float share = m_stop->share(shade, box.x0 + k, y);
+                m_along[row + k] *= share;
+                m_distance[row + k] *= 0.5f + 0.5f * share;
+            }
     }
 }
 
@@ -194,11 +207,36 @@ void TilePainter::blend(const std::vector<std::vector<float>>& colors, Index i, 
         if (m_canvas.relief)
             for (int k = 0; k < columns; ++k) {
                 float& out = m_canvas.relief[at + std::size_t(k)];
-                const float mixed = out + alpha[k] * (thickness * height[k] - out);
+                const float mixed = out + distance[k] * (thickness * height[k] - out);
                 out = distance[k] < kFar ? mixed : out;
             }
         std::fill(distance, distance + columns, kFar);
     }
+}
+
+void TilePainter::note_cover(Box box)
+{
+    const float per_opacity = 1.0f / m_settings.opacity;
+    for (int y = box.y0; y < box.y1; ++y) {
+        const int row = slot(box.x0, y);
+        for (int k = 0; k < box.x1 - box.x0; ++k)
+            if (m_distance[row + k] < kFar)
+                m_bare[row + k] *= 1.0f - m_along[row + k] * per_opacity;
+    }
+}
+
+void TilePainter::fill_holes()
+{
+    for (int y = m_tile.y0; y < m_tile.y1; ++y)
+        for (int x = m_tile.x0; x < m_tile.x1; ++x) {
+            const float hole = (m_bare[slot(x, y)] - kGap) / (kHole - kGap);
+            if (hole <= 0.0f)
+                continue;
+            const float alpha = m_settings.opacity * std::min(hole, 1.0f);
+            const std::size_t at = std::size_t(y) * std::size_t(m_canvas.width) + std::size_t(x);
+            for (std::size_t c = 0; c < m_canvas.channels.size(); ++c)
+                m_canvas.channels[c][at] += alpha * (m_settings.ground->channels[c][at] - m_canvas.channels[c][at]);
+        }
 }
 
 void TilePainter::paint(const Strokes& strokes, Index i, const std::vector<std::vector<float>>& colors)
@@ -220,8 +258,10 @@ void TilePainter::paint(const Strokes& strokes, Index i, const std::vector<std::
     if (touched.empty())
         return;
     look_up(stroke, length, touched);
-    if (m_stop && (stroke.vertex != kGhost || m_settings.stop_ground))
+    if (m_stop)
         stop_at_edges(m_stop->shade(i), touched);
+    if (m_settings.ground)
+        note_cover(touched);
     const float brightness = 1.0f + m_settings.jitter_color * signed_unit(scramble(stroke.variation + 3));
     blend(colors, i, brightness, 0.6f * std::sqrt(stroke.width), touched);
 }
@@ -255,6 +295,8 @@ void paint_strokes(const Strokes& strokes, const std::vector<std::vector<float>>
         TilePainter painter(tile, brush, settings, stop ? &*stop : nullptr, canvas);
         for (Index i : of_tile[t])
             painter.paint(strokes, i, colors);
+        if (settings.ground)
+            painter.fill_holes();
     });
 }
 

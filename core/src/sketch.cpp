@@ -6,14 +6,6 @@
 
 namespace pimg {
 
-float difference(const Shade& a, const Shade& b, float per_channel)
-{
-    float sum = 0.0f;
-    for (std::size_t c = 0; c < a.size(); ++c)
-        sum += (a[c] - b[c]) * (a[c] - b[c]);
-    return std::sqrt(sum * per_channel);
-}
-
 ShadePicture::ShadePicture(const Planes& guides, const ParallelFor& parallel)
     : m_width(guides.width), m_height(guides.height),
       m_per_channel(1.0f / float(std::max<std::size_t>(1, guides.channels.size()))),

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include <pimg/strokes.h>
@@ -13,7 +14,11 @@ namespace pimg {
 using Shade = std::array<float, 3>;
 
 /// Root mean square difference over `channels`.
-float difference(const Shade& a, const Shade& b, float per_channel);
+inline float difference(const Shade& a, const Shade& b, float per_channel)
+{
+    const float x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+    return std::sqrt((x * x + y * y + z * z) * per_channel);
+}
 
 /// Guides with a little smoothing (sigma one pixel), interleaved for quick reading at any place.
 class ShadePicture {

@@ -172,7 +172,8 @@ bool paint_canvas(ProgressiveImage::Data& data, const PaintOptions& options, con
     settings.jitter_color = options.jitter_color;
     settings.edges = &guides;
     settings.crossing = planning.crossing;
-    settings.stop_ground = studio.on_the_picture;
+    const Planes ground = picture.view();
+    settings.ground = studio.on_the_picture ? nullptr : &ground;
     settings.parallel = parallel;
     paint_strokes(strokes, colors, studio.brush, settings, canvas);
     light_relief(canvas, options.impasto, parallel);

@@ -127,6 +127,20 @@ TEST(paint, takes_brushes_canvases_and_maps_from_files)
     EXPECT_EQ(result.getchannel(3, 3, 0, 1), 0.8f);
 }
 
+TEST(paint, covers_a_foreign_canvas)
+{
+    const ImageBuf src = picture(160, 120, OIIO::TypeDesc::FLOAT, 3);
+    for (const char* brush : { "round", "flat", "bristle", "knife" }) {
+        pimg::PaintOptions options;
+        options.brush = brush;
+        options.canvas = "100";
+        const ImageBuf result = iba::paint(src, options);
+        ASSERT_FALSE(result.has_error()) << result.geterror();
+        for (float v : samples(result))
+            ASSERT_LT(v, 25.0f) << brush;
+    }
+}
+
 TEST(paint, says_what_is_wrong)
 {
     const ImageBuf src = picture(30, 20);

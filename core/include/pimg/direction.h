@@ -27,7 +27,7 @@ public:
     /// From `guides`, whose unit is about a step of an 8-bit picture. Colour edges count as much
     /// as edges of brightness: the structure tensors of all channels are added. `noise` is the
     /// gradient, in units per pixel, below which a place is flat and takes its direction from farther away.
-    DirectionField(const Planes& guides, const ParallelFor& parallel = {}, float noise = 1.5f);
+    DirectionField(const Planes& guides, const ParallelFor& parallel = {}, float noise = 4.0f);
 
     /// Unit vector along the edges at `p`, which may lie outside the picture.
     Vec2 at(Vec2 p) const;

@@ -21,9 +21,11 @@ struct PaintSettings {
     float jitter_color = 0.0f;  ///< 0..1: largest random change of a stroke's brightness, as a share of it
     /// Edges that stop the paint, up to three channels in steps of an 8-bit picture, or null: a stroke covers a pixel
     /// as far as the pixel is on the stroke's side of the edge, and so ends exactly where the picture's edge does,
-    /// anti-aliased as it is there. Strokes without a vertex, the ground under all others, are not stopped.
+    /// anti-aliased as it is there.
     const Planes* edges = nullptr;
-    bool stop_ground = false;  ///< stop those too: for a canvas that already shows the picture
+    /// What to show of the canvas's size and channels where strokes leave holes, or null to leave them: along edges that stop
+    /// the paint a few pixels may get none. Gaps between the hairs of a brush stay.
+    const Planes* ground = nullptr;
     float crossing = 14.0f;  ///< differences below this are no edge
     ParallelFor parallel;
 };
