@@ -164,18 +164,36 @@ double capacity(TypeDesc type)
     }
 }
 
-/// Labels as pixels of another type, not scaled. `type` may be UNKNOWN: then it becomes what the format holds them in. OpenEXR
+/// The first of the types for labels that the format stores as such and that holds them; else the one that holds most. OpenEXR
 /// has integers, but most readers turn pixels into floats that end at one; so there it is float.
+bool find_label_type(ImageOutput& out, const std::string& scratch, double largest, TypeDesc& type, std::string& error)
+{
+    double most = 0.0;
+    for (const TypeDesc wanted : { TypeDesc::UINT32, TypeDesc::UINT16, TypeDesc::FLOAT, TypeDesc::UINT8 }) {
+        if (std::string(out.format_name()) == "openexr" && wanted != TypeDesc::FLOAT)
+            continue;
+        TypeDesc stored = wanted;
+        if (!stored_type(out, scratch, 1, stored, error))
+            return false;
+        if (stored == wanted && capacity(stored) > most) {
+            most = capacity(stored);
+            type = stored;
+            if (most >= largest)
+                return true;
+        }
+    }
+    return most > 0.0;
+}
+
+/// Labels as pixels of another type, not scaled. `type` may be UNKNOWN: then it becomes what the format holds them in.
 bool convert_labels(const ImageBuf& labels, ImageOutput& out, const std::string& scratch, TypeDesc& type,
                     ImageBuf& result, std::string& error)
 {
-    if (type == TypeDesc::UNKNOWN) {
-        type = std::string(out.format_name()) == "openexr" ? TypeDesc::FLOAT : TypeDesc::UINT32;
-        if (!stored_type(out, scratch, 1, type, error))
-            return false;
-    }
-    if (largest_label(labels) > capacity(type)) {
-        error = format("{} regions: expected at most {} in pixels of type {}", largest_label(labels) + 1,
+    const double largest = largest_label(labels);
+    if (type == TypeDesc::UNKNOWN && !find_label_type(out, scratch, largest, type, error))
+        return false;
+    if (largest > capacity(type)) {
+        error = format("{} regions: expected at most {} in pixels of type {}", largest + 1,
                        capacity(type) + 1, type);
         return false;
     }
