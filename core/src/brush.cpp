@@ -28,7 +28,7 @@ float noise(float x, float y, std::uint32_t seed)
     const int ix = int(std::floor(x)), iy = int(std::floor(y));
     const float wx = smooth_step(0, 1, x - float(ix)), wy = smooth_step(0, 1, y - float(iy));
     return (1 - wy) * ((1 - wx) * corner(ix, iy) + wx * corner(ix + 1, iy))
-           + wy * ((1 - wx) * corner(ix, iy + 1) + wx * corner(ix + 1, iy + 1));
+        + wy * ((1 - wx) * corner(ix, iy + 1) + wx * corner(ix + 1, iy + 1));
 }
 
 /// A place on the finest mask: columns from the near end and -1..1 across.
@@ -76,8 +76,8 @@ Paint knife_paint(Place p, std::uint32_t seed)
     const float side = seed & 1 ? p.across : -p.across;
     const float slant = kCap * 0.35f * (1.0f + side);
     const float broken = 2.0f * noise(p.across * 5.0f, 3.0f, seed);
-    const float alpha = smooth_step(slant - 1.0f, slant + 1.0f, p.along)
-                        * smooth_step(2.0f + broken, 4.0f + broken, p.to_end());
+    const float alpha =
+        smooth_step(slant - 1.0f, slant + 1.0f, p.along) * smooth_step(2.0f + broken, 4.0f + broken, p.to_end());
     const float ridge = smooth_step(0.72f, 0.92f, side) + smooth_step(0.3f * kCap, 0.1f * kCap, p.to_end());
     const float scrape = noise(p.along / 90.0f, p.across * 5.0f, seed + 1);
     return { alpha, std::clamp(0.4f + 0.1f * scrape + 0.35f * std::min(ridge, 1.0f), 0.0f, 1.0f) };

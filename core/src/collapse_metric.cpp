@@ -28,14 +28,16 @@ PlainMesh::PlainMesh(const Guide& guide) : width(guide.width), height(guide.heig
         weights.push_back(channel.weight);
         z.emplace_back(channel.samples, channel.samples + n);
     }
-    const auto pixel = [&](int x, int y) { return Index(y) * Index(width) + Index(x); };
+    const auto pixel = [&](int x, int y) {
+        return Index(y) * Index(width) + Index(x);
+    };
     // Whether quad (x, y) .. (x + 1, y + 1) is cut from upper left to lower right.
     const auto falling = [&](int x, int y) {
         float jump = 0.0f;
         for (std::size_t c = 0; c < z.size(); ++c)
             jump += weights[c]
-                    * (std::fabs(z[c][pixel(x, y)] - z[c][pixel(x + 1, y + 1)])
-                       - std::fabs(z[c][pixel(x + 1, y)] - z[c][pixel(x, y + 1)]));
+                * (std::fabs(z[c][pixel(x, y)] - z[c][pixel(x + 1, y + 1)])
+                   - std::fabs(z[c][pixel(x + 1, y)] - z[c][pixel(x, y + 1)]));
         return jump <= 0.0f;
     };
     constexpr int kStepX[8] = { 1, 1, 0, -1, -1, -1, 0, 1 };
@@ -66,7 +68,11 @@ namespace {
 class Collapser {
 public:
     Collapser(PlainMesh& mesh, CollapseMetric& metric, CollapseSequence& sequence, SimplifyStats& stats)
-        : m_mesh(mesh), m_metric(metric), m_sequence(sequence), m_stats(stats), m_stamps(mesh.points.size(), 0),
+        : m_mesh(mesh),
+          m_metric(metric),
+          m_sequence(sequence),
+          m_stats(stats),
+          m_stamps(mesh.points.size(), 0),
           m_orders(mesh.points.size(), 0.0f)
     {
     }
@@ -229,8 +235,8 @@ void Collapser::collapse(Index t, const Plan& plan)
         std::swap(t, u);  // the one that stays where it is keeps its number
     Star star;
     find_star(t, u, star);
-    float order = std::max({ float(std::min(plan.cost, double(std::numeric_limits<float>::max()))), m_orders[t],
-                             m_orders[u] });
+    float order =
+        std::max({ float(std::min(plan.cost, double(std::numeric_limits<float>::max()))), m_orders[t], m_orders[u] });
     for (int i = 0; i < star.degree; ++i)
         if (star.ring[i] != kGhost)
             order = std::max(order, m_orders[star.ring[i]]);

@@ -65,7 +65,9 @@ float area_and_centre(const Polygon& polygon, Vec2& centre)
 class Collector {
 public:
     Collector(const DirectionField& field, const DabOptions& options, std::vector<Dab>& dabs)
-        : m_field(field), m_options(options), m_dabs(dabs),
+        : m_field(field),
+          m_options(options),
+          m_dabs(dabs),
           m_smallest(0.7f * options.min * options.min * (options.detail ? 1.0f / 16 : 1.0f) / kOverlap)
     {
     }
@@ -120,8 +122,7 @@ void Collector::measure(const Mesh& mesh, Index v, Level level)
     const Vec2 along = m_field.at(dab.centre);
     float low = 0.0f, high = 0.0f;
     for (int i = 0; i < polygon.size; ++i) {
-        const float s = (polygon.points[i].x - dab.centre.x) * along.x
-                        + (polygon.points[i].y - dab.centre.y) * along.y;
+        const float s = (polygon.points[i].x - dab.centre.x) * along.x + (polygon.points[i].y - dab.centre.y) * along.y;
         low = std::min(low, s);
         high = std::max(high, s);
     }
@@ -151,8 +152,7 @@ std::vector<Vec2> piece_polygon(const Mesh& mesh, Index vertex)
     return { polygon.points, polygon.points + polygon.size };
 }
 
-Status collect_dabs(const Hierarchy& h, const DirectionField& field, const DabOptions& options,
-                    std::vector<Dab>& dabs)
+Status collect_dabs(const Hierarchy& h, const DirectionField& field, const DabOptions& options, std::vector<Dab>& dabs)
 {
     dabs.clear();
     Mesh mesh;

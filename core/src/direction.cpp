@@ -19,8 +19,14 @@ struct Tensor {
     float xx = 0.0f, yy = 0.0f, xy = 0.0f;
 };
 
-Tensor operator+(Tensor a, Tensor b) { return { a.xx + b.xx, a.yy + b.yy, a.xy + b.xy }; }
-Tensor operator*(float k, Tensor a) { return { k * a.xx, k * a.yy, k * a.xy }; }
+Tensor operator+(Tensor a, Tensor b)
+{
+    return { a.xx + b.xx, a.yy + b.yy, a.xy + b.xy };
+}
+Tensor operator*(float k, Tensor a)
+{
+    return { k * a.xx, k * a.yy, k * a.xy };
+}
 
 /// A raster with its size; reads outside give the nearest sample.
 template<class T>
@@ -29,7 +35,7 @@ struct Grid {
     std::vector<T> v;
 
     Grid() = default;
-    Grid(int w, int h) : width(w), height(h), v(std::size_t(w) * std::size_t(h)) {}
+    Grid(int w, int h) : width(w), height(h), v(std::size_t(w) * std::size_t(h)) { }
     T* row(int y) { return v.data() + std::size_t(std::clamp(y, 0, height - 1)) * std::size_t(width); }
     const T* row(int y) const { return v.data() + std::size_t(std::clamp(y, 0, height - 1)) * std::size_t(width); }
 };
@@ -142,7 +148,8 @@ Vec2 from_coarser(const Grid<Vec2>& coarse, int x, int y)
 }  // namespace
 
 DirectionField::DirectionField(const Planes& guides, const ParallelFor& parallel, float noise)
-    : m_width(guides.width), m_height(guides.height)
+    : m_width(guides.width),
+      m_height(guides.height)
 {
     std::vector<Grid<Tensor>> levels { tensors(guides, parallel) };
     while (levels.back().width > 1 || levels.back().height > 1)

@@ -14,7 +14,7 @@ constexpr float kLightest = 0.04f;    ///< darkness that is left white
 constexpr float kOneWay = 0.5f;       ///< darkness up to which one direction does
 constexpr float kDarkest = 0.9f;      ///< of one direction: lines just leave a little paper
 constexpr float kFree = 0.35f;        ///< share of the tone claimed where a line may still start
-constexpr float kNear = 0.6f;        ///< ... and where one ends that was started elsewhere
+constexpr float kNear = 0.6f;         ///< ... and where one ends that was started elsewhere
 constexpr float kToneChange = 0.30f;  ///< darkness may change so much along a line
 constexpr float kTone = 1.6f;         ///< exponent of the darkness: pens leave light tones to the paper
 constexpr int kMostSteps = 24;
@@ -34,7 +34,10 @@ struct Tones {
 class Hatch {
 public:
     Hatch(const DirectionField& field, const PenSettings& options, Tones tones, bool across)
-        : m_field(field), m_options(options), m_tones(std::move(tones)), m_across(across)
+        : m_field(field),
+          m_options(options),
+          m_tones(std::move(tones)),
+          m_across(across)
     {
     }
 
@@ -87,7 +90,8 @@ void Hatch::claim(Vec2 from, Vec2 to)
         return;
     const float tone = std::max(m_tones.wanted[m_tones.at(middle)], kLightest);
     const float reach = m_options.width / tone, nx = -dy / length, ny = dx / length;
-    const int x0 = std::max(0, int(std::min(from.x, to.x) - reach)), y0 = std::max(0, int(std::min(from.y, to.y) - reach));
+    const int x0 = std::max(0, int(std::min(from.x, to.x) - reach)),
+              y0 = std::max(0, int(std::min(from.y, to.y) - reach));
     const int x1 = std::min(m_tones.width - 1, int(std::max(from.x, to.x) + reach) + 1);
     const int y1 = std::min(m_tones.height - 1, int(std::max(from.y, to.y) + reach) + 1);
     for (int y = y0; y <= y1; ++y)
@@ -97,7 +101,8 @@ void Hatch::claim(Vec2 from, Vec2 to)
             // Half open, so that successive segments do not claim a place twice.
             if (along < 0.0f || along >= 1.0f || off >= reach)
                 continue;
-            m_tones.claimed[std::size_t(y) * std::size_t(m_tones.width) + std::size_t(x)] += tone * (1.0f - off / reach);
+            m_tones.claimed[std::size_t(y) * std::size_t(m_tones.width) + std::size_t(x)] +=
+                tone * (1.0f - off / reach);
         }
 }
 
@@ -111,7 +116,11 @@ void Hatch::draw(const Dab& dab, Strokes& lines)
     const int before = walk(dab.centre, -1.0f, reach, back), after = walk(dab.centre, 1.0f, reach, forth);
     if (before + after < 2)
         return;
-    Stroke line { Index(lines.points.size()), Index(before + after + 1), m_options.width, dab.vertex, dab.level,
+    Stroke line { Index(lines.points.size()),
+                  Index(before + after + 1),
+                  m_options.width,
+                  dab.vertex,
+                  dab.level,
                   scramble(dab.vertex + scramble(m_options.seed)) };
     for (int i = before; i-- > 0;)
         lines.points.push_back(back[i]);
@@ -134,10 +143,11 @@ std::vector<float> with_outlines(const float* darkness, int width, int height, c
     };
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            const float gx = 0.5f * (clean(x + 1, y) - clean(x - 1, y)), gy = 0.5f * (clean(x, y + 1) - clean(x, y - 1));
+            const float gx = 0.5f * (clean(x + 1, y) - clean(x - 1, y)),
+                        gy = 0.5f * (clean(x, y + 1) - clean(x, y - 1));
             const float edge = std::max(0.0f, std::sqrt(gx * gx + gy * gy) - 0.04f);
-            wanted[std::size_t(y) * std::size_t(width) + std::size_t(x)]
-                = std::min(1.0f, options.density * std::pow(clean(x, y), kTone) + 4.0f * options.outline * edge);
+            wanted[std::size_t(y) * std::size_t(width) + std::size_t(x)] =
+                std::min(1.0f, options.density * std::pow(clean(x, y), kTone) + 4.0f * options.outline * edge);
         }
     return wanted;
 }

@@ -20,7 +20,7 @@ std::int64_t floor_div(std::int64_t a, std::int64_t b)  // b > 0
 
 class ExactMetric : public CollapseMetric {
 public:
-    explicit ExactMetric(PlainMesh& mesh) : m_mesh(mesh), m_pixels(mesh.z) {}
+    explicit ExactMetric(PlainMesh& mesh) : m_mesh(mesh), m_pixels(mesh.z) { }
 
     bool is_symmetric() const override { return false; }
     int candidates(Index, Index u, Point* positions) const override
@@ -29,7 +29,7 @@ public:
         return 1;
     }
     double cost(Index t, Index u, Point p) override;
-    void merge(Index, Index, Point) override {}  // the one that stays has the intensity it had
+    void merge(Index, Index, Point) override { }  // the one that stays has the intensity it had
 
 private:
     double deviation(Index a, Index b, Index c) const;
@@ -77,7 +77,8 @@ double ExactMetric::deviation(Index a, Index b, Index c) const
                 first = std::max(first, x[k] - floor_div(side, -dy));
         }
         for (std::size_t ch = 0; ch < m_pixels.size() && first <= last; ++ch) {
-            const double z = double(m_mesh.z[ch][a]), bz = double(m_mesh.z[ch][b]) - z, cz = double(m_mesh.z[ch][c]) - z;
+            const double z = double(m_mesh.z[ch][a]), bz = double(m_mesh.z[ch][b]) - z,
+                         cz = double(m_mesh.z[ch][c]) - z;
             const double gx = (bz * double(y[2] - y[0]) - cz * double(y[1] - y[0])) / area;
             const double gy = (cz * double(x[1] - x[0]) - bz * double(x[2] - x[0])) / area;
             const double start = z + gx * double(first - x[0]) + gy * double(row - y[0]);
@@ -93,6 +94,9 @@ double ExactMetric::deviation(Index a, Index b, Index c) const
 
 }  // namespace
 
-std::unique_ptr<CollapseMetric> exact_metric(PlainMesh& mesh) { return std::make_unique<ExactMetric>(mesh); }
+std::unique_ptr<CollapseMetric> exact_metric(PlainMesh& mesh)
+{
+    return std::make_unique<ExactMetric>(mesh);
+}
 
 }  // namespace pimg

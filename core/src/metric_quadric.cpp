@@ -100,7 +100,9 @@ private:
 constexpr double kPixel = 1.0 / double(kSubpixels);
 
 QuadricMetric::QuadricMetric(PlainMesh& mesh)
-    : m_mesh(mesh), m_channels(mesh.z.size()), m_quadrics(mesh.points.size() * m_channels)
+    : m_mesh(mesh),
+      m_channels(mesh.z.size()),
+      m_quadrics(mesh.points.size() * m_channels)
 {
     for (Index v = 0; v < Index(mesh.points.size()); ++v)
         for (int j = 0; j < mesh.degrees[v]; ++j) {
@@ -156,7 +158,9 @@ int QuadricMetric::candidates(Index t, Index u, Point* positions) const
     }
     const double reach = 4.0 * std::max(std::abs(pt.x - pu.x), std::abs(pt.y - pu.y)) * kPixel;
     const auto at = [&](double share) {
-        const auto lattice = [](double v) { return std::int32_t(std::nearbyint(v * kSubpixels)); };
+        const auto lattice = [](double v) {
+            return std::int32_t(std::nearbyint(v * kSubpixels));
+        };
         return Point { lattice(hx + share * (mx + std::clamp(dx, -reach, reach) - hx)),
                        lattice(hy + share * (my + std::clamp(dy, -reach, reach) - hy)) };
     };
@@ -192,6 +196,9 @@ void QuadricMetric::merge(Index t, Index u, Point p)
 
 }  // namespace
 
-std::unique_ptr<CollapseMetric> quadric_metric(PlainMesh& mesh) { return std::make_unique<QuadricMetric>(mesh); }
+std::unique_ptr<CollapseMetric> quadric_metric(PlainMesh& mesh)
+{
+    return std::make_unique<QuadricMetric>(mesh);
+}
 
 }  // namespace pimg

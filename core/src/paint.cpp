@@ -44,13 +44,17 @@ Box united(Box a, Box b)
 
 /// How far from the middle line paint may lie; half a pixel more than the brush for anti-aliasing, and
 /// the corners of square ends.
-float reach_of(const Stroke& stroke) { return 0.7072f * stroke.width + 1.0f; }
+float reach_of(const Stroke& stroke)
+{
+    return 0.7072f * stroke.width + 1.0f;
+}
 
 /// Keeps paint on its side of an edge.
 class EdgeStop {
 public:
     EdgeStop(const Strokes& strokes, const PaintSettings& settings)
-        : m_picture(*settings.edges, settings.parallel), m_least(kAcross * settings.crossing),
+        : m_picture(*settings.edges, settings.parallel),
+          m_least(kAcross * settings.crossing),
           m_shades(stroke_colors(strokes, *settings.edges, *settings.edges, settings.parallel))
     {
         m_shades.resize(std::min(m_shades.size(), std::tuple_size<Shade>::value));
@@ -85,7 +89,11 @@ private:
 class TilePainter {
 public:
     TilePainter(Box tile, const Brush& brush, const PaintSettings& settings, const EdgeStop* stop, Canvas& canvas)
-        : m_tile(tile), m_brush(brush), m_settings(settings), m_stop(stop), m_canvas(canvas)
+        : m_tile(tile),
+          m_brush(brush),
+          m_settings(settings),
+          m_stop(stop),
+          m_canvas(canvas)
     {
         std::fill(std::begin(m_distance), std::end(m_distance), kFar);
         std::fill(std::begin(m_bare), std::end(m_bare), 1.0f);
@@ -114,8 +122,8 @@ private:
     float m_bare[kTile * kTile];  ///< share of the canvas that opaque strokes would leave
 };
 
-/// Takes over the pixels nearer to segment a -> b than to any before. The first and last segment
-/// reach on beyond their ends.
+/// Takes over the pixels nearer to segment a -> b than to any before; m_across keeps the square, with the side's sign. The
+/// first and last segment reach on beyond their ends.
 void TilePainter::measure(Vec2 a, Vec2 b, float start, bool first, bool last, Box box)
 {
     const float dx = b.x - a.x, dy = b.y - a.y;
@@ -135,7 +143,7 @@ void TilePainter::measure(Vec2 a, Vec2 b, float start, bool first, bool last, Bo
             const bool nearer = d < distance[k];
             distance[k] = nearer ? d : distance[k];
             along[k] = nearer ? start + on : along[k];
-            across[k] = nearer ? std::copysign(std::sqrt(d), v) : across[k];
+            across[k] = nearer ? std::copysign(d, v) : across[k];
         }
     }
 }
@@ -155,15 +163,15 @@ void TilePainter::look_up(const Stroke& stroke, float length, Box box)
         for (int k = 0; k < box.x1 - box.x0; ++k) {
             if (distance[k] >= kFar)
                 continue;
-            const float s = along[k] + half, v = across[k];
+            const float s = along[k] + half, v = std::copysign(std::sqrt(std::fabs(across[k])), across[k]);
             const float inside = std::min(std::min(s, total - s), half - std::fabs(v)) + 0.5f;
             if (inside <= 0.0f) {
                 distance[k] = kFar;
                 continue;
             }
-            const float u = s < zone             ? s * per_zone
-                            : s <= total - zone ? 0.25f + (s - zone) * per_middle
-                                                 : 1.0f - (total - s) * per_zone;
+            const float u = s < zone ? s * per_zone
+                : s <= total - zone  ? 0.25f + (s - zone) * per_middle
+                                     : 1.0f - (total - s) * per_zone;
             const Paint paint = mask.at(u, v * per_width + 0.5f);
             along[k] = paint.alpha * std::min(inside, 1.0f) * m_settings.opacity;
             across[k] = paint.height;
@@ -243,17 +251,18 @@ void TilePainter::paint(const Strokes& strokes, Index i, const std::vector<std::
 {
     const Stroke& stroke = strokes.strokes[i];
     const Vec2* p = strokes.begin(stroke);
-    const float reach = reach_of(stroke);
+    const float reach = reach_of(stroke), side = 0.5f * stroke.width + 1.0f;
     Box touched { m_tile.x1, m_tile.y1, m_tile.x0, m_tile.y0 };
     float length = 0.0f;
     for (Index k = 0; k + 1 < stroke.count; ++k) {
-        const Box box = intersection(around(p[k], p[k + 1], reach), m_tile);
+        const bool is_end = k == 0 || k + 2 == stroke.count;
+        const Box box = intersection(around(p[k], p[k + 1], is_end ? reach : side), m_tile);
         if (!box.empty()) {
             measure(p[k], p[k + 1], length, k == 0, k + 2 == stroke.count, box);
             touched = united(touched, box);
         }
-        length += std::sqrt((p[k + 1].x - p[k].x) * (p[k + 1].x - p[k].x)
-                            + (p[k + 1].y - p[k].y) * (p[k + 1].y - p[k].y));
+        length +=
+            std::sqrt((p[k + 1].x - p[k].x) * (p[k + 1].x - p[k].x) + (p[k + 1].y - p[k].y) * (p[k + 1].y - p[k].y));
     }
     if (touched.empty())
         return;

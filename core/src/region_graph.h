@@ -21,7 +21,7 @@ public:
         float strength;  ///< sum of the gradient's over them
     };
 
-    explicit RegionGraph(Index regions) : m_first(regions, kGhost), m_mark(regions, kGhost) {}
+    explicit RegionGraph(Index regions) : m_first(regions, kGhost), m_mark(regions, kGhost) { }
 
     void reserve(std::size_t borders);
     void add(Index a, Index b, Shared shared);

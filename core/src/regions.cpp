@@ -99,7 +99,7 @@ private:
         float area = 0;       ///< pixels
         Index best = kGhost;  ///< neighbour across the cheapest border
         float cost = 0;
-        Index stamp = 0;      ///< grows whenever best or cost change
+        Index stamp = 0;  ///< grows whenever best or cost change
     };
 
     const float* mean(Index r) const { return &m_means[r * m_channels]; }
@@ -121,8 +121,12 @@ private:
 };
 
 RegionMerger::RegionMerger(const RegionInput& input, const RegionOptions& options, RegionTree& tree)
-    : m_options(options), m_tree(tree), m_channels(input.channels.size()), m_regions(tree.m_leaves),
-      m_means(tree.m_leaves * m_channels), m_graph(tree.m_leaves)
+    : m_options(options),
+      m_tree(tree),
+      m_channels(input.channels.size()),
+      m_regions(tree.m_leaves),
+      m_means(tree.m_leaves * m_channels),
+      m_graph(tree.m_leaves)
 {
     add_pieces(input);
     add_borders(input);
@@ -317,7 +321,7 @@ std::vector<Index> RegionTree::labels(Index regions) const
 std::size_t RegionTree::memory() const
 {
     return m_leaf_of.capacity() * sizeof(Index) + m_merges.capacity() * sizeof(Merge)
-           + m_costs.capacity() * sizeof(float);
+        + m_costs.capacity() * sizeof(float);
 }
 
 Index RegionTree::regions_above(float threshold) const

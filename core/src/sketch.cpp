@@ -7,7 +7,8 @@
 namespace pimg {
 
 ShadePicture::ShadePicture(const Planes& guides, const ParallelFor& parallel)
-    : m_width(guides.width), m_height(guides.height),
+    : m_width(guides.width),
+      m_height(guides.height),
       m_per_channel(1.0f / float(std::max<std::size_t>(1, guides.channels.size()))),
       m_shades(std::size_t(m_width) * std::size_t(m_height), Shade {})
 {
@@ -21,8 +22,8 @@ ShadePicture::ShadePicture(const Planes& guides, const ParallelFor& parallel)
             for (std::size_t c = 0; c < channels; ++c) {
                 std::fill(column.begin(), column.end(), 0.0f);
                 for (int k = 0; k < 5; ++k) {
-                    const float* row = guides.channels[c]
-                                       + std::size_t(std::clamp(y + k - 2, 0, m_height - 1)) * std::size_t(m_width);
+                    const float* row =
+                        guides.channels[c] + std::size_t(std::clamp(y + k - 2, 0, m_height - 1)) * std::size_t(m_width);
                     for (int x = 0; x < m_width; ++x)
                         column[std::size_t(x) + 2] += kKernel[k] * row[x];
                 }
@@ -45,7 +46,7 @@ Shade ShadePicture::between(Vec2 p) const
     Shade result;
     for (std::size_t c = 0; c < kChannels; ++c)
         result[c] = (1 - wy) * ((1 - wx) * pixel(x, y)[c] + wx * pixel(right, y)[c])
-                    + wy * ((1 - wx) * pixel(x, below)[c] + wx * pixel(right, below)[c]);
+            + wy * ((1 - wx) * pixel(x, below)[c] + wx * pixel(right, below)[c]);
     return result;
 }
 
@@ -57,14 +58,19 @@ float ShadePicture::contrast(int x, int y) const
 }
 
 Sketch::Sketch(const ShadePicture& picture, int cell)
-    : m_picture(picture), m_cell(cell), m_columns((picture.width() + cell - 1) / cell),
-      m_rows((picture.height() + cell - 1) / cell), m_wanted(std::size_t(m_columns) * std::size_t(m_rows)),
-      m_painted(m_wanted.size()), m_covered(m_wanted.size(), 0)
+    : m_picture(picture),
+      m_cell(cell),
+      m_columns((picture.width() + cell - 1) / cell),
+      m_rows((picture.height() + cell - 1) / cell),
+      m_wanted(std::size_t(m_columns) * std::size_t(m_rows)),
+      m_painted(m_wanted.size()),
+      m_covered(m_wanted.size(), 0)
 {
     for (int y = 0; y < m_rows; ++y)
         for (int x = 0; x < m_columns; ++x) {
             Shade sum {};
-            const int right = std::min(picture.width(), (x + 1) * cell), bottom = std::min(picture.height(), (y + 1) * cell);
+            const int right = std::min(picture.width(), (x + 1) * cell),
+                      bottom = std::min(picture.height(), (y + 1) * cell);
             for (int py = y * cell; py < bottom; ++py)
                 for (int px = x * cell; px < right; ++px)
                     for (std::size_t c = 0; c < sum.size(); ++c)

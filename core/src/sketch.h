@@ -34,10 +34,7 @@ public:
     }
     /// Bilinear.
     Shade between(Vec2 p) const;
-    const Shade& pixel(int x, int y) const
-    {
-        return m_shades[std::size_t(y) * std::size_t(m_width) + std::size_t(x)];
-    }
+    const Shade& pixel(int x, int y) const { return m_shades[std::size_t(y) * std::size_t(m_width) + std::size_t(x)]; }
     /// Difference between the two sides of an edge through the pixel; small where there is none.
     float contrast(int x, int y) const;
 

@@ -13,9 +13,9 @@ void add(std::string& text, float value)
 {
     char buffer[32];
     const long hundredths = std::lround(double(value) * 100.0);
-    const auto end = std::to_chars(buffer, buffer + sizeof(buffer), hundredths / 100 == 0 && hundredths < 0
-                                                                        ? 0L
-                                                                        : hundredths / 100).ptr;
+    const auto end =
+        std::to_chars(buffer, buffer + sizeof(buffer), hundredths / 100 == 0 && hundredths < 0 ? 0L : hundredths / 100)
+            .ptr;
     if (hundredths < 0 && hundredths / 100 == 0)
         text += '-';
     text.append(buffer, end);
@@ -53,8 +53,8 @@ std::string hexadecimal(const ShownColors& colors, std::size_t stroke)
 std::string strokes_to_svg(const Strokes& strokes, const ShownColors& colors, float opacity, const std::string& ground)
 {
     const std::string w = std::to_string(strokes.width), h = std::to_string(strokes.height);
-    std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + w + "\" height=\"" + h + "\" viewBox=\"0 0 "
-                      + w + " " + h + "\">\n";
+    std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + w + "\" height=\"" + h
+        + "\" viewBox=\"0 0 " + w + " " + h + "\">\n";
     if (!ground.empty())
         svg += "<rect width=\"" + w + "\" height=\"" + h + "\" fill=\"" + ground + "\"/>\n";
     svg += "<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"";
@@ -82,8 +82,8 @@ std::string strokes_to_svg(const Strokes& strokes, const ShownColors& colors, fl
 
 std::string strokes_to_json(const Strokes& strokes, const ShownColors& colors, float opacity)
 {
-    std::string json = "{\"width\": " + std::to_string(strokes.width) + ", \"height\": "
-                       + std::to_string(strokes.height) + ", \"opacity\": ";
+    std::string json = "{\"width\": " + std::to_string(strokes.width)
+        + ", \"height\": " + std::to_string(strokes.height) + ", \"opacity\": ";
     add(json, opacity);
     json += ", \"strokes\": [";
     for (std::size_t i = 0; i < strokes.strokes.size(); ++i) {
@@ -102,7 +102,7 @@ std::string strokes_to_json(const Strokes& strokes, const ShownColors& colors, f
         for (std::size_t c = 0; c < 3; ++c)
             json += (c ? ", " : "") + std::to_string(byte_of(colors, c, i));
         json += "], \"level\": " + std::to_string(s.level)
-                + ", \"vertex\": " + (s.vertex == kGhost ? "-1" : std::to_string(s.vertex)) + "}";
+            + ", \"vertex\": " + (s.vertex == kGhost ? "-1" : std::to_string(s.vertex)) + "}";
     }
     return json + "\n]}\n";
 }

@@ -41,7 +41,9 @@ struct Draft {
 class Planner {
 public:
     Planner(const ShadePicture& picture, const DirectionField& field, const StrokeOptions& options)
-        : m_picture(picture), m_field(field), m_options(options)
+        : m_picture(picture),
+          m_field(field),
+          m_options(options)
     {
     }
 
@@ -117,8 +119,8 @@ void Planner::walk(Draft& draft, Vec2 along, float reach, int sign) const
         else if (cosine < 0.7f)
             break;
         const Vec2 q { p.x + step * turn.x, p.y + step * turn.y };
-        if (!is_same(q, draft.shade) || !is_same({ q.x + tip * turn.x, q.y + tip * turn.y }, draft.shade)
-            || q.x < 0.0f || q.y < 0.0f || q.x > float(m_picture.width() - 1) || q.y > float(m_picture.height() - 1))
+        if (!is_same(q, draft.shade) || !is_same({ q.x + tip * turn.x, q.y + tip * turn.y }, draft.shade) || q.x < 0.0f
+            || q.y < 0.0f || q.x > float(m_picture.width() - 1) || q.y > float(m_picture.height() - 1))
             break;
         p = q;
         d = turn;
@@ -170,8 +172,8 @@ Site site_of(const Dab& dab, Index index, const ShadePicture& picture, const Str
     Site site { 0, index, std::clamp(min * std::exp2(0.5f * float(size)), min, max), dab.centre };
     const float pitch = kPitch * site.width;
     const int x = int(std::lround(dab.centre.x / pitch)), y = int(std::lround(dab.centre.y / pitch));
-    const std::uint32_t chance
-        = scramble(std::uint32_t(x) + scramble(std::uint32_t(y) + scramble(std::uint32_t(size) + scramble(options.seed))));
+    const std::uint32_t chance = scramble(
+        std::uint32_t(x) + scramble(std::uint32_t(y) + scramble(std::uint32_t(size) + scramble(options.seed))));
     const Vec2 place { pitch * (float(x) + 0.3f * signed_unit(scramble(chance + 4))),
                        pitch * (float(y) + 0.3f * signed_unit(scramble(chance + 5))) };
     // Next to an edge the mesh knows the place better.
@@ -188,16 +190,15 @@ std::vector<Site> settle(const std::vector<Dab>& dabs, const ShadePicture& pictu
     sites.reserve(dabs.size());
     for (Index i = 0; i < Index(dabs.size()); ++i)
         sites.push_back(site_of(dabs[i], i, picture, options));
-    std::sort(sites.begin(), sites.end(), [](const Site& a, const Site& b) {
-        return a.key != b.key ? a.key < b.key : a.dab < b.dab;
-    });
+    std::sort(sites.begin(), sites.end(),
+              [](const Site& a, const Site& b) { return a.key != b.key ? a.key < b.key : a.dab < b.dab; });
     return sites;
 }
 
 void append(const Draft& draft, Index vertex, Level level, Strokes& strokes)
 {
-    strokes.strokes.push_back({ Index(strokes.points.size()), Index(draft.size()), draft.width, vertex, level,
-                                draft.variation });
+    strokes.strokes.push_back(
+        { Index(strokes.points.size()), Index(draft.size()), draft.width, vertex, level, draft.variation });
     strokes.points.insert(strokes.points.end(), draft.begin(), draft.begin() + draft.size());
 }
 

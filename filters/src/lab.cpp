@@ -25,7 +25,10 @@ float lightness(float t)
 constexpr float kX[3] = { 0.433910f, 0.376220f, 0.189870f };
 constexpr float kZ[3] = { 0.017756f, 0.109469f, 0.872775f };
 
-float dot(const float* w, const float* rgb) { return w[0] * rgb[0] + w[1] * rgb[1] + w[2] * rgb[2]; }
+float dot(const float* w, const float* rgb)
+{
+    return w[0] * rgb[0] + w[1] * rgb[1] + w[2] * rgb[2];
+}
 
 /// Factor that places the median luminance of scene-linear light at 0.18.
 float exposure(const std::vector<float>& luminance)

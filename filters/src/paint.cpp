@@ -177,8 +177,12 @@ bool paint_canvas(ProgressiveImage::Data& data, const PaintOptions& options, con
     settings.parallel = parallel;
     paint_strokes(strokes, colors, studio.brush, settings, canvas);
     light_relief(canvas, options.impasto, parallel);
-    for (std::vector<float>& channel : studio.canvas.channels)
+    for (std::vector<float>& channel : studio.canvas.channels) {
         crop_to_picture(data.hierarchy, channel);
+        if (data.spec.format == OIIO::TypeDesc::HALF)  // the grain of the paint must not make infinity of the largest
+            for (float& value : channel)
+                value = std::clamp(value, -65504.0f, 65504.0f);
+    }
     return true;
 }
 

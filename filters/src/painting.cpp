@@ -19,7 +19,7 @@ constexpr float kMostStopsOfColour = 3.0f;  ///< a channel is at most so far fro
 bool is_integer(OIIO::TypeDesc type)
 {
     return type.basetype != OIIO::TypeDesc::HALF && type.basetype != OIIO::TypeDesc::FLOAT
-           && type.basetype != OIIO::TypeDesc::DOUBLE;
+        && type.basetype != OIIO::TypeDesc::DOUBLE;
 }
 
 /// Eye units to a unit of the stored samples.
@@ -52,8 +52,8 @@ OwnedPlanes log_planes(const ProgressiveImage::Data& data, const LogLuminance& l
             for (std::size_t c = 0; c < 3; ++c) {
                 const float ratio = light > 0.0f ? rgb[3 * x + c] / light : 1.0f;
                 const float tint = ratio > 0.0f ? std::log2(ratio) : -kMostStopsOfColour;
-                planes.channels[c][first + x]
-                    = kUnitsToAStop * (stops + std::clamp(tint, -kMostStopsOfColour, kMostStopsOfColour));
+                planes.channels[c][first + x] =
+                    kUnitsToAStop * (stops + std::clamp(tint, -kMostStopsOfColour, kMostStopsOfColour));
             }
         }
     });
@@ -125,7 +125,9 @@ std::vector<float> darkness(const ProgressiveImage::Data& data, const OwnedPlane
     float black = 0.0f, white = 255.0f;
     if (data.stats.guide == "log") {
         std::vector<float> sorted = tones;
-        const auto place = [&](double q) { return sorted.begin() + std::ptrdiff_t(q * double(pixels - 1)); };
+        const auto place = [&](double q) {
+            return sorted.begin() + std::ptrdiff_t(q * double(pixels - 1));
+        };
         std::nth_element(sorted.begin(), place(0.01), sorted.end());
         black = *place(0.01);
         std::nth_element(sorted.begin(), place(0.99), sorted.end());
@@ -180,8 +182,8 @@ bool write_strokes(const std::string& filename, const Strokes& strokes, const Sh
     if (filename.empty())
         return true;
     const bool svg = OIIO::Strutil::iends_with(filename, ".svg");
-    const std::string text = svg ? strokes_to_svg(strokes, colors, opacity, ground)
-                                 : strokes_to_json(strokes, colors, opacity);
+    const std::string text =
+        svg ? strokes_to_svg(strokes, colors, opacity, ground) : strokes_to_json(strokes, colors, opacity);
     OIIO::ofstream file;
     OIIO::Filesystem::open(file, filename, std::ios::binary);
     file << text;

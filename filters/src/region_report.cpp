@@ -21,7 +21,7 @@ struct Region {
     int xmin = std::numeric_limits<int>::max(), ymin = xmin, xmax = -1, ymax = -1;
     std::vector<double> mean, squares;  ///< per channel; sum of squared differences from the running mean
 
-    explicit Region(std::size_t channels) : mean(channels, 0.0), squares(channels, 0.0) {}
+    explicit Region(std::size_t channels) : mean(channels, 0.0), squares(channels, 0.0) { }
 
     void add(int px, int py, const float* samples)
     {

@@ -40,8 +40,7 @@ bool find_regions(ProgressiveImage::Data& data, const SegmentOptions& options, c
                                            pixels);
         return false;
     }
-    const std::size_t wanted
-        = std::min(std::size_t(options.regions > 0 ? options.regions : kDefaultRegions), pixels);
+    const std::size_t wanted = std::min(std::size_t(options.regions > 0 ? options.regions : kDefaultRegions), pixels);
     const auto tree = data.region_tree(by_threshold ? 1 : wanted, parallel, error);
     if (tree == nullptr)
         return false;
@@ -66,13 +65,20 @@ void write_as(ImageBuf& dst, const OIIO::ImageSpec& spec, ROI roi, const std::ve
 double largest_label(OIIO::TypeDesc type)
 {
     switch (type.basetype) {
-    case OIIO::TypeDesc::UINT8: return 255.0;
-    case OIIO::TypeDesc::INT8: return 127.0;
-    case OIIO::TypeDesc::UINT16: return 65535.0;
-    case OIIO::TypeDesc::INT16: return 32767.0;
-    case OIIO::TypeDesc::HALF: return 2048.0;
-    case OIIO::TypeDesc::FLOAT: return 16777216.0;
-    default: return 2147483647.0;
+    case OIIO::TypeDesc::UINT8:
+        return 255.0;
+    case OIIO::TypeDesc::INT8:
+        return 127.0;
+    case OIIO::TypeDesc::UINT16:
+        return 65535.0;
+    case OIIO::TypeDesc::INT16:
+        return 32767.0;
+    case OIIO::TypeDesc::HALF:
+        return 2048.0;
+    case OIIO::TypeDesc::FLOAT:
+        return 16777216.0;
+    default:
+        return 2147483647.0;
     }
 }
 
@@ -84,16 +90,36 @@ bool write_labels(ImageBuf& dst, const OIIO::ImageSpec& spec, ROI roi, const Reg
         return false;
     }
     switch (type.basetype) {
-    case OIIO::TypeDesc::UINT8: write_as<std::uint8_t>(dst, spec, roi, regions.labels); break;
-    case OIIO::TypeDesc::INT8: write_as<std::int8_t>(dst, spec, roi, regions.labels); break;
-    case OIIO::TypeDesc::UINT16: write_as<std::uint16_t>(dst, spec, roi, regions.labels); break;
-    case OIIO::TypeDesc::INT16: write_as<std::int16_t>(dst, spec, roi, regions.labels); break;
-    case OIIO::TypeDesc::UINT32: write_as<std::uint32_t>(dst, spec, roi, regions.labels); break;
-    case OIIO::TypeDesc::INT32: write_as<std::int32_t>(dst, spec, roi, regions.labels); break;
-    case OIIO::TypeDesc::HALF: write_as<half, float>(dst, spec, roi, regions.labels); break;
-    case OIIO::TypeDesc::FLOAT: write_as<float>(dst, spec, roi, regions.labels); break;
-    case OIIO::TypeDesc::DOUBLE: write_as<double>(dst, spec, roi, regions.labels); break;
-    default: dst.errorfmt("labels cannot be stored in pixels of type {}", type); return false;
+    case OIIO::TypeDesc::UINT8:
+        write_as<std::uint8_t>(dst, spec, roi, regions.labels);
+        break;
+    case OIIO::TypeDesc::INT8:
+        write_as<std::int8_t>(dst, spec, roi, regions.labels);
+        break;
+    case OIIO::TypeDesc::UINT16:
+        write_as<std::uint16_t>(dst, spec, roi, regions.labels);
+        break;
+    case OIIO::TypeDesc::INT16:
+        write_as<std::int16_t>(dst, spec, roi, regions.labels);
+        break;
+    case OIIO::TypeDesc::UINT32:
+        write_as<std::uint32_t>(dst, spec, roi, regions.labels);
+        break;
+    case OIIO::TypeDesc::INT32:
+        write_as<std::int32_t>(dst, spec, roi, regions.labels);
+        break;
+    case OIIO::TypeDesc::HALF:
+        write_as<half, float>(dst, spec, roi, regions.labels);
+        break;
+    case OIIO::TypeDesc::FLOAT:
+        write_as<float>(dst, spec, roi, regions.labels);
+        break;
+    case OIIO::TypeDesc::DOUBLE:
+        write_as<double>(dst, spec, roi, regions.labels);
+        break;
+    default:
+        dst.errorfmt("labels cannot be stored in pixels of type {}", type);
+        return false;
     }
     return true;
 }
@@ -107,8 +133,8 @@ void write_boundaries(ImageBuf& dst, const ProgressiveImage::Data& data, ROI roi
     write_rows(dst, data, roi, parallel, [&](int y, float* row) {
         for (int x = roi.xbegin - spec.x; x < roi.xend - spec.x; ++x, row += spec.nchannels) {
             const Index* here = &labels[std::size_t(y - spec.y) * std::size_t(width) + std::size_t(x)];
-            const bool ends = (x + 1 < width && here[1] != *here)
-                              || (y - spec.y + 1 < height && here[std::size_t(width)] != *here);
+            const bool ends =
+                (x + 1 < width && here[1] != *here) || (y - spec.y + 1 < height && here[std::size_t(width)] != *here);
             *row = ends ? 1.0f : 0.0f;
         }
     });

@@ -41,7 +41,7 @@ struct Built {
         EXPECT_TRUE(simplify({ width, height, { { z.data() } } }, options, hierarchy, bands).ok());
         EXPECT_TRUE(DualPieces::from_hierarchy(hierarchy, pieces).ok());
     }
-    Built(int width, int height) : Built(width, height, picture(width, height)) {}
+    Built(int width, int height) : Built(width, height, picture(width, height)) { }
 };
 
 std::vector<Level> some_levels(const Hierarchy& h)

@@ -117,8 +117,8 @@ TEST(Metric, TakesSeveralChannels)
         std::vector<Bands> bands;
         SimplifyOptions options;
         options.metric = metric;
-        ASSERT_TRUE(simplify({ 50, 40, { { a.samples.data() }, { c.samples.data(), 0.5f } } }, options, hierarchy,
-                             bands).ok());
+        ASSERT_TRUE(
+            simplify({ 50, 40, { { a.samples.data() }, { c.samples.data(), 0.5f } } }, options, hierarchy, bands).ok());
         ASSERT_TRUE(validate(hierarchy).ok());
         ASSERT_EQ(bands.size(), 2u);
         std::vector<float> back(a.samples.size());
@@ -152,7 +152,9 @@ TEST(Metric, StopsWhenAsked)
     for (Metric metric : kMetrics) {
         SimplifyOptions options;
         options.metric = metric;
-        options.progress = [](float) { return false; };
+        options.progress = [](float) {
+            return false;
+        };
         Hierarchy hierarchy;
         std::vector<Bands> bands;
         EXPECT_FALSE(simplify({ 120, 100, { { p.samples.data() } } }, options, hierarchy, bands).ok());

@@ -148,7 +148,9 @@ TEST(RegionTree, RefusesWhatIsNoPicture)
     EXPECT_FALSE(RegionTree::build({ 1, 1, {} }, {}, tree).ok());
     EXPECT_FALSE(RegionTree::build({ 1, 1, { &sample }, &pieces }, {}, tree).ok());
     RegionOptions stop;
-    stop.progress = [](float) { return false; };
+    stop.progress = [](float) {
+        return false;
+    };
     const Picture p = test::scene(300, 300);
     EXPECT_FALSE(RegionTree::build({ 300, 300, { p.samples.data() } }, stop, tree).ok());
 }

@@ -46,8 +46,8 @@ void backwards(std::size_t n, const std::function<void(std::size_t)>& body)
         body(i);
 }
 
-std::vector<float> painted(const Scene& scene, const StrokeOptions& options, const Brush& brush,
-                           PaintSettings settings, float ground)
+std::vector<float> painted(const Scene& scene, const StrokeOptions& options, const Brush& brush, PaintSettings settings,
+                           float ground)
 {
     const DirectionField field(scene.guides, options.parallel);
     Strokes strokes;
@@ -60,7 +60,10 @@ std::vector<float> painted(const Scene& scene, const StrokeOptions& options, con
     return canvas;
 }
 
-float turn_between(Vec2 a, Vec2 b) { return std::fabs(a.x * b.x + a.y * b.y); }
+float turn_between(Vec2 a, Vec2 b)
+{
+    return std::fabs(a.x * b.x + a.y * b.y);
+}
 
 TEST(DirectionField, runs_along_straight_edges_and_into_flat_places)
 {
@@ -264,10 +267,12 @@ TEST(StrokeFile, numbers_have_points_and_colours_are_clipped)
     strokes.points = { { -0.5f, 1.25f }, { 3.0f, 2.0f } };
     strokes.strokes = { { 0, 2, 1.5f, kGhost, 7, 0 } };
     const std::string svg = strokes_to_svg(strokes, { { 2.0f }, { 0.5f }, { -1.0f } }, 1.0f, "#ffffff");
-    EXPECT_NE(svg.find("<path stroke=\"#ff8000\" stroke-width=\"1.5\" d=\"M0 1.75L3.5 2.5\"/>"), std::string::npos) << svg;
+    EXPECT_NE(svg.find("<path stroke=\"#ff8000\" stroke-width=\"1.5\" d=\"M0 1.75L3.5 2.5\"/>"), std::string::npos)
+        << svg;
     const std::string json = strokes_to_json(strokes, { { 0.0f } }, 0.25f);
     EXPECT_NE(json.find("[[-0.5, 1.25], [3, 2]], \"width\": 1.5, \"color\": [0, 0, 0], \"level\": 7, \"vertex\": -1"),
-              std::string::npos) << json;
+              std::string::npos)
+        << json;
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include <OpenImageIO/imagebufalgo.h>
 #include <gtest/gtest.h>
+#include <OpenImageIO/imagebufalgo.h>
 
 #include "core/pictures.h"
 

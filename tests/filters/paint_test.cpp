@@ -4,8 +4,8 @@
 #include <fstream>
 #include <limits>
 
-#include <OpenImageIO/imagebufalgo.h>
 #include <gtest/gtest.h>
+#include <OpenImageIO/imagebufalgo.h>
 #include <pimg/imagebufalgo.h>
 
 #include "core/pictures.h"
@@ -127,6 +127,18 @@ TEST(paint, takes_brushes_canvases_and_maps_from_files)
     EXPECT_EQ(result.getchannel(3, 3, 0, 1), 0.8f);
 }
 
+TEST(paint, half_stays_finite)
+{
+    ImageBuf src = picture(60, 44, OIIO::TypeDesc::HALF, 3);
+    for (ImageBuf::Iterator<float> p(src); !p.done(); ++p)
+        for (int c = 0; c < 3; ++c)
+            p[c] = p[c] * 40000.0f < 60000.0f ? p[c] * 40000.0f : 65504.0f;
+    pimg::PaintOptions options;
+    options.impasto = 1.0f;
+    for (float v : samples(iba::paint(src, options)))
+        ASSERT_TRUE(std::isfinite(v));
+}
+
 TEST(paint, covers_a_foreign_canvas)
 {
     const ImageBuf src = picture(160, 120, OIIO::TypeDesc::FLOAT, 3);
@@ -166,7 +178,8 @@ TEST(painting, works_on_odd_pictures)
                 ImageBuf src = picture(width, height, type, channels);
                 src.set_origin(-5, 11);
                 if (type == OIIO::TypeDesc::FLOAT)
-                    src.setpixel(-5, 11, 0, std::vector<float>(4, std::numeric_limits<float>::infinity()).data(), channels);
+                    src.setpixel(-5, 11, 0, std::vector<float>(4, std::numeric_limits<float>::infinity()).data(),
+                                 channels);
                 for (const ImageBuf& result : { iba::paint(src), iba::mosaic(src), iba::ink(src) }) {
                     ASSERT_FALSE(result.has_error()) << result.geterror();
                     EXPECT_EQ(result.roi(), src.roi());

@@ -9,8 +9,8 @@
 #include <set>
 #include <sstream>
 
-#include <OpenImageIO/imagebufalgo.h>
 #include <gtest/gtest.h>
+#include <OpenImageIO/imagebufalgo.h>
 
 #include <pimg/dual_pieces.h>
 
@@ -181,16 +181,18 @@ TEST(Segment, AcceptsAnyDestinationAndRegion)
     ImageBuf src = picture(50, 40);
     src.set_origin(-5, 10);
     const std::vector<Index> labels = labels_of(iba::segment(src, options_of(25)));
-    for (const TypeDesc::BASETYPE type : { TypeDesc::UINT8, TypeDesc::UINT16, TypeDesc::INT32, TypeDesc::HALF,
-                                           TypeDesc::FLOAT, TypeDesc::DOUBLE }) {
+    for (const TypeDesc::BASETYPE type :
+         { TypeDesc::UINT8, TypeDesc::UINT16, TypeDesc::INT32, TypeDesc::HALF, TypeDesc::FLOAT, TypeDesc::DOUBLE }) {
         ImageSpec spec(50, 40, 1, type);
         spec.x = -5;
         spec.y = 10;
         ImageBuf dst(spec);
         OIIO::ImageBufAlgo::zero(dst);
         ASSERT_TRUE(iba::segment(dst, src, options_of(25), ROI(0, 20, 15, 30))) << dst.geterror();
-        const double scale = type == TypeDesc::UINT8 ? 255 : type == TypeDesc::UINT16 ? 65535
-                             : type == TypeDesc::INT32 ? 2147483647.0 : 1;
+        const double scale = type == TypeDesc::UINT8 ? 255
+            : type == TypeDesc::UINT16               ? 65535
+            : type == TypeDesc::INT32                ? 2147483647.0
+                                                     : 1;
         for (int y = 10; y < 50; ++y)
             for (int x = -5; x < 45; ++x) {
                 const bool inside = x >= 0 && x < 20 && y >= 15 && y < 30;
@@ -240,9 +242,10 @@ TEST(Segment, ReportsEveryRegion)
     SegmentOptions options = options_of(2);
     options.stats = "regions.csv";
     ASSERT_FALSE(iba::segment(src, options).has_error());
-    EXPECT_EQ(contents("regions.csv"), "label,pixels,x,y,xmin,ymin,xmax,ymax,mean_Y,stddev_Y\n"
-                                       "0,8,0.5,1.5,0,0,1,3,0.25,0\n"
-                                       "1,16,3.5,1.5,2,0,5,3,1,0\n");
+    EXPECT_EQ(contents("regions.csv"),
+              "label,pixels,x,y,xmin,ymin,xmax,ymax,mean_Y,stddev_Y\n"
+              "0,8,0.5,1.5,0,0,1,3,0.25,0\n"
+              "1,16,3.5,1.5,2,0,5,3,1,0\n");
     options.stats = "regions.json";
     ASSERT_FALSE(iba::segment(src, options).has_error());
     EXPECT_EQ(contents("regions.json"),

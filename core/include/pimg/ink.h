@@ -9,11 +9,11 @@
 namespace pimg {
 
 struct PenSettings {
-    float width = 1.3f;          ///< of the pen in pixels, 0.5..16
-    float length = 1.0f;         ///< factor on the lines' length, 0.1..10
-    float density = 1.0f;        ///< factor on the darkness, 0..4
-    float outline = 1.0f;        ///< darkness added along edges, 0..4
-    bool cross = true;           ///< a second direction where one would have to be too dense
+    float width = 1.3f;    ///< of the pen in pixels, 0.5..16
+    float length = 1.0f;   ///< factor on the lines' length, 0.1..10
+    float density = 1.0f;  ///< factor on the darkness, 0..4
+    float outline = 1.0f;  ///< darkness added along edges, 0..4
+    bool cross = true;     ///< a second direction where one would have to be too dense
     std::uint32_t seed = 1;
     ParallelFor parallel;
 };

@@ -14,7 +14,7 @@ namespace pimg {
 struct Tiling {
     int width = 0, height = 0;
     std::vector<Index> tile;
-    std::vector<float> inside;       ///< pixels; next to 0 at a joint; the picture's own border is no joint
+    std::vector<float> inside;          ///< pixels; next to 0 at a joint; the picture's own border is no joint
     std::vector<float> away_x, away_y;  ///< unit vector from the nearest joint inwards; 0 if there is none
 };
 

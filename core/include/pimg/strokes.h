@@ -24,7 +24,7 @@ struct Dab {
     Vec2 centre;
     float width, length;  ///< across and along the direction field, pixels
     Index vertex;
-    Level level;          ///< splits applied when the piece was measured; 0 for base vertices
+    Level level;  ///< splits applied when the piece was measured; 0 for base vertices
 };
 
 struct DabOptions {
@@ -45,9 +45,9 @@ Status collect_dabs(const Hierarchy& hierarchy, const DirectionField& field, con
 
 /// One stroke: a brush drawn along a polyline.
 struct Stroke {
-    Index first = 0, count = 0;   ///< its points in Strokes::points; at least 2
-    float width = 0.0f;           ///< of the brush, pixels
-    Index vertex = kGhost;        ///< it stands for; kGhost for one that only covers what others left
+    Index first = 0, count = 0;  ///< its points in Strokes::points; at least 2
+    float width = 0.0f;          ///< of the brush, pixels
+    Index vertex = kGhost;       ///< it stands for; kGhost for one that only covers what others left
     Level level = 0;
     std::uint32_t variation = 0;  ///< random bits of its own; the same place has the same in any frame
 };
@@ -78,8 +78,8 @@ Status plan_strokes(const Hierarchy& hierarchy, const Planes& guides, const Dire
 
 /// Colour of every stroke on each channel of `picture`: the mean of the samples under its middle line that are
 /// like those at its centre by `guides`. colours[c][i] is of channel c, stroke i. Never leaves the samples' range.
-std::vector<std::vector<float>> stroke_colors(const Strokes& strokes, const Planes& picture,
-                                              const Planes& guides, const ParallelFor& parallel = {});
+std::vector<std::vector<float>> stroke_colors(const Strokes& strokes, const Planes& picture, const Planes& guides,
+                                              const ParallelFor& parallel = {});
 
 /// A well-mixed number from another; the library's only source of chance.
 inline std::uint32_t scramble(std::uint32_t x)
@@ -90,6 +90,9 @@ inline std::uint32_t scramble(std::uint32_t x)
 }
 
 /// `bits` as a number in -1..1.
-inline float signed_unit(std::uint32_t bits) { return float(bits >> 8) * (2.0f / 16777215.0f) - 1.0f; }
+inline float signed_unit(std::uint32_t bits)
+{
+    return float(bits >> 8) * (2.0f / 16777215.0f) - 1.0f;
+}
 
 }  // namespace pimg
