@@ -233,8 +233,8 @@ def build_and_retune(g):
                     + ['%.3f' % t for t in (build, analysis, *again, paint)])
     rows.append(['the paper, Pentium IV', '0.26', '41.6', '', '13', '13', '', '9 to 14'])
     g.table('table1', 'Table 1: seconds to build, to retune and to paint',
-            'One thread, the best of three. A picture is built once; its channels are analysed once, before the first '
-            'low-pass or enhancement; every change of a parameter costs what the filters\' columns say.', rows,
+            'One thread, wall clock, the best of three, with other work on the machine. A picture is built once; its '
+            'channels are analysed once, before the first low-pass or enhancement; every change of a parameter costs what the filters\' columns say.', rows,
             ['pimgtool --threads 1 --stats courtyard.exr --build --hdr-compress -o out.png'])
 
 
@@ -248,7 +248,8 @@ def simpler_meshes(g):
         rows.append([photo, '%.3f' % full, '%.3f' % adaptive, '%.1f' % (full / adaptive), '%.2f' % off])
     rows.append(['the paper', '', '', '', '3.76'])
     g.table('table2', 'Table 2: simpler initial meshes',
-            'One thread, best of three. The difference is kept as the residual, so that pictures come back exactly.', rows,
+            'One thread, wall clock, best of three, with other work on the machine. The difference is kept as the '
+            'residual, so that pictures come back exactly.', rows,
             ['pimgtool --threads 1 --stats camera.png --build:mesh=adaptive --level -o out.png'])
 
 
