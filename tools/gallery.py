@@ -157,8 +157,8 @@ def lowpass_and_enhancement(g):
 
 def dual_pieces(g):
     g.figure('fig04', 'Fig. 4: dual pieces',
-             'The pieces of the picture that the vertices of a level stand for, 400 and 3000 of them, outlined. Every '
-             'piece of the left picture is a union of pieces of the right one.',
+             'The pieces that 400 and 3000 vertices stand for, outlined as the polygons through the centres of the '
+             'triangles around each vertex.',
              ['pimgtool chelsea.png --mosaic:tiles=%d:grout=0.7:bevel=0:color=1 -o fig04_%d.png' % (n, n)
               for n in (400, 3000)])
 
@@ -225,7 +225,8 @@ def build_and_retune(g):
              'painting, s']]
     for photo in ('camera.png', 'astronaut.png', 'coffee.png', 'courtyard.exr'):
         build = g.seconds(photo + ' --build', 'build')
-        first, again = zip(*[g.first_and_again(photo, f) for f in ('--feature-lowpass', '--detail-enhance', '--hdr-compress')])
+        first, again = zip(*[g.first_and_again(photo, f)
+                             for f in ('--feature-lowpass', '--detail-enhance', '--hdr-compress')])
         paint = g.seconds(photo + ' --build --paint', 'filter')
         analysis = max(0.0, first[0] - again[0])
         height, width = g.picture(photo).shape[:2]
@@ -234,7 +235,8 @@ def build_and_retune(g):
     rows.append(['the paper, Pentium IV', '0.26', '41.6', '', '13', '13', '', '9 to 14'])
     g.table('table1', 'Table 1: seconds to build, to retune and to paint',
             'One thread, wall clock, the best of three, with other work on the machine. A picture is built once; its '
-            'channels are analysed once, before the first low-pass or enhancement; every change of a parameter costs what the filters\' columns say.', rows,
+            'channels are analysed once, before the first low-pass or enhancement; every change of a parameter costs what '
+            'the filters\' columns say.', rows,
             ['pimgtool --threads 1 --stats courtyard.exr --build --hdr-compress -o out.png'])
 
 
