@@ -32,13 +32,20 @@ float DetailGain::operator()(float contrast) const
     return s0 + (1.0f - s0) * power(rest, beta);
 }
 
-std::vector<float> contrast_envelope(const Hierarchy& hierarchy, const Bands& bands, float coherence)
+std::vector<float> contrast_envelope(const Hierarchy& hierarchy, const Bands& bands, float coherence, float range)
 {
+    const Index base = hierarchy.base_vertices();
     std::vector<float> envelope(hierarchy.levels()), values(hierarchy.vertices());
+    std::vector<float> contrast(hierarchy.vertices(), range);  // of the vertices, as far as they exist
     sweep(hierarchy, bands, values.data(), hierarchy.levels(), [&](Level i, Detail d) {
         const Stencil& k = hierarchy.stencils[i];
         const auto [least, most] = std::minmax({ values[k.s], values[k.at], values[k.bt], values[k.au], values[k.bu] });
-        envelope[i] = std::max({ std::fabs(d.t), std::fabs(d.u), coherence * (most - least) });
+        const float own = std::max({ std::fabs(d.t), std::fabs(d.u), most - least });
+        const float s = contrast[k.s];
+        const float t = s + k.wat * (contrast[k.at] - s) + k.wbt * (contrast[k.bt] - s);
+        const float u = s + k.wau * (contrast[k.au] - s) + k.wbu * (contrast[k.bu] - s);
+        envelope[i] = own + coherence * (0.5f * (t + u) - own);
+        contrast[k.s] = contrast[base + i] = envelope[i];
         return d;
     });
     return envelope;
@@ -73,7 +80,7 @@ void compress_residual(const Hierarchy& hierarchy, const Bands& bands, const Det
     for (const PixelStencil& k : hierarchy.between) {
         const float r = bands.residual[k.pixel];
         const auto [least, most] = std::minmax({ picture[k.a], picture[k.b], picture[k.c] });
-        compressed[k.pixel] += gain(std::max(std::fabs(r), coherence * (most - least))) * r;
+        compressed[k.pixel] += gain(coherence > 0.0f ? std::max(std::fabs(r), most - least) : std::fabs(r)) * r;
     }
 }
 

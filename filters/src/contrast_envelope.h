@@ -14,14 +14,19 @@ struct DetailGain {
     float operator()(float contrast) const;
 };
 
-/// For every split, the contrast its details belong to: the larger of the two details and of `coherence` times the contrast
-/// of the coarser mesh around, which is the span of its values at the stencils' vertices.
+/// For every split, the contrast its details belong to:
+///     e = coherence * inherited + (1 - coherence) * own
+/// own: the larger of the two details and of the span of the coarser mesh's values at the stencils' vertices.
+/// inherited: what the splits that made those vertices had, by the weights the details are predicted with; the base
+/// mesh has `range`, the dynamic range of the picture.
 ///
-/// Why: a step edge is made of large details and of many small ones that correct the slopes the coarse mesh had
-/// beside it. Eq. (2) on each detail's own size compresses the step, but not the corrections, which then overshoot:
-/// halos and reversed gradients. Measured by the face it corrects, a correction of a steep face is as
-/// compressed as the face itself, and the texture on a plateau, whose faces are flat, is left alone.
-std::vector<float> contrast_envelope(const Hierarchy& hierarchy, const Bands& bands, float coherence);
+/// Why own is not just the detail: a step edge is made of large details and of many small ones that correct the slopes
+/// the coarse mesh had beside it. Eq. (2) on each detail's own size compresses the step, but not the corrections, which
+/// then overshoot: halos and reversed gradients. Measured by the face it corrects, a correction of a steep
+/// face is as compressed as the face itself, and the texture on a plateau, whose faces are flat, is left alone.
+/// Why anything is inherited: the mesh of a coarse level is one of many that would do as well, and a gain that follows its
+/// accidents makes pictures that differ by one pixel, or by a scale, come out visibly different far away.
+std::vector<float> contrast_envelope(const Hierarchy& hierarchy, const Bands& bands, float coherence, float range);
 
 /// Values at the finest level, in vertex order, of the compressed bands: the base scaled by gain.s0, both details of
 /// split i by gain(envelope[i]), or each by the gain of its own size if there is no envelope.

@@ -38,10 +38,6 @@ bool feature_lowpass(ImageBuf& dst, const ProgressiveImage& src, const FeatureLo
                      int nthreads)
 {
     return run_filter(dst, options, [&] {
-        if (options.splits >= 0 && options.fraction >= 0.0f) {
-            dst.errorfmt("splits and fraction: expected only one of them");
-            return false;
-        }
         if (!prepare(dst, src, roi, ResultType::as_source))
             return false;
         ProgressiveImage::Data& data = *src.data();

@@ -45,21 +45,20 @@ namespace ImageBufAlgo {
 
 bool find_level(const Hierarchy& hierarchy, const LevelOptions& options, Level& level, std::string& error)
 {
-    int given = 0;
+    if (!check_options(options, error))
+        return false;
     level = hierarchy.levels();
-    if (options.splits >= 0 && ++given > 0)
+    if (options.splits >= 0)
         level = std::min(level, Level(options.splits));
-    if (options.faces >= 0 && ++given > 0)
+    else if (options.faces >= 0)
         level = hierarchy.level_of_faces(options.faces);
-    if (options.vertices >= 0 && ++given > 0)
+    else if (options.vertices >= 0)
         level = hierarchy.level_of_vertices(options.vertices);
-    if (options.fraction >= 0.0f && ++given > 0)
+    else if (options.fraction >= 0.0f)
         level = hierarchy.level_of_vertices(double(options.fraction) * hierarchy.vertices());
-    if (options.error >= 0.0f && ++given > 0)
+    else if (options.error >= 0.0f)
         level = hierarchy.level_of_error(double(options.error));
-    if (given > 1)
-        error = "splits, faces, vertices, fraction, error: expected only one of them";
-    return given <= 1;
+    return true;
 }
 
 bool level_image(ImageBuf& dst, const ProgressiveImage& src, const LevelOptions& options, ROI roi, int nthreads)

@@ -126,6 +126,18 @@ bool check_option(const OptionRule& rule, const OptionValue& value, std::string&
     return fine || fail(rule, to_text(value), value, error);
 }
 
+bool check_alternatives(const std::vector<const OptionRule*>& given, std::string& error)
+{
+    for (const OptionRule* rule : given)
+        for (const OptionRule* other : given)
+            if (rule != other && *rule->sets != '\0' && std::string_view(rule->sets) == other->sets) {
+                error = std::string(rule->key) + " and " + other->key + " both say the " + rule->sets
+                    + ": expected only one of them";
+                return false;
+            }
+    return true;
+}
+
 bool parse_option(const OptionRule& rule, std::string_view text, OptionValue& value, std::string& error)
 {
     const OptionValue type = value;
@@ -188,8 +200,7 @@ const std::vector<Option<BuildOptions>>& option_table<BuildOptions>()
             "colour space of the picture; metadata, else sRGB for 8 bit, else linear" } },
         { &T::mesh, { "mesh", 0, 0, "", "full|adaptive", "a vertex for every pixel, or fewer: faster, still exact" } },
         { &T::density, { "density", 1e-6, 1, "", "", "share of the pixels an adaptive mesh keeps" } },
-        { &T::control,
-          { "control", 0, 0, "", "", "what density follows: gradient, curvature, or an image file" } },
+        { &T::control, { "control", 0, 0, "", "", "what density follows: gradient, curvature, or an image file" } },
     };
     return table;
 }
@@ -201,11 +212,11 @@ template<class T>
 std::vector<Option<T>> level_table()
 {
     return {
-        { &T::splits, { "splits", 0, kAnyInt, "splits", "", "vertex splits applied to the base mesh" } },
-        { &T::faces, { "faces", 2, kAnyInt, "faces", "", "triangles of the mesh" } },
-        { &T::vertices, { "vertices", 4, kAnyInt, "vertices", "", "vertices of the mesh" } },
-        { &T::fraction, { "fraction", 0, 1, "", "", "share of the picture's vertices" } },
-        { &T::error, { "error", 0, kAnyFloat, "", "", "largest collapse cost left out" } },
+        { &T::splits, { "splits", 0, kAnyInt, "splits", "", "vertex splits applied to the base mesh", "level" } },
+        { &T::faces, { "faces", 2, kAnyInt, "faces", "", "triangles of the mesh", "level" } },
+        { &T::vertices, { "vertices", 4, kAnyInt, "vertices", "", "vertices of the mesh", "level" } },
+        { &T::fraction, { "fraction", 0, 1, "", "", "share of the picture's vertices", "level" } },
+        { &T::error, { "error", 0, kAnyFloat, "", "", "largest collapse cost left out", "level" } },
     };
 }
 
@@ -236,8 +247,9 @@ const std::vector<Option<FeatureLowpassOptions>>& option_table<FeatureLowpassOpt
 {
     using T = FeatureLowpassOptions;
     static const std::vector<Option<T>> table = {
-        { &T::splits, { "splits", 0, kAnyInt, "splits", "", "vertex splits whose details are kept" } },
-        { &T::fraction, { "fraction", 0, 1, "", "", "the same as a share of all splits; 0.1 if neither is given" } },
+        { &T::splits, { "splits", 0, kAnyInt, "splits", "", "vertex splits whose details are kept", "cut-off" } },
+        { &T::fraction,
+          { "fraction", 0, 1, "", "", "the same as a share of all splits; 0.1 if neither is given", "cut-off" } },
     };
     return table;
 }
@@ -281,8 +293,7 @@ const std::vector<Option<HdrCompressOptions>>& option_table<HdrCompressOptions>(
         { &T::beta, { "beta", 0, 1000, "", "", "how fast smaller details are compressed less" } },
         { &T::dmax, { "dmax", 0, 256, "stops", "", "detail that is compressed fully; 0: found" } },
         { &T::coherence,
-          { "coherence", 0, 1, "", "",
-            "share of the contrast around it that a detail is compressed for; 0: its own" } },
+          { "coherence", 0, 1, "", "", "how far details are compressed like the coarser features around; 0: not" } },
         { &T::saturation, { "saturation", 0, 4, "", "", "exponent of the colour ratio; 1 keeps colours, 0 is grey" } },
         { &T::fit, { "fit", 0, 0, "", "", "fit the result to the display; 0: leave it in the picture's units" } },
         { &T::contrast, { "contrast", 0, 8, "", "", "factor on the compressed log luminance; 0: found" } },

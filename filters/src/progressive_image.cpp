@@ -240,7 +240,8 @@ std::shared_ptr<const std::vector<float>> ProgressiveImage::Data::envelope(float
 {
     std::lock_guard<std::mutex> lock(m_mutex);
     if (m_envelope == nullptr || m_envelope_coherence != coherence) {
-        m_envelope = std::make_shared<const std::vector<float>>(contrast_envelope(hierarchy, *m_log->bands, coherence));
+        m_envelope = std::make_shared<const std::vector<float>>(
+            contrast_envelope(hierarchy, *m_log->bands, coherence, m_log->luminance.range));
         m_envelope_coherence = coherence;
     }
     return m_envelope;

@@ -33,9 +33,10 @@ using OIIO::ROI;
 /// Compresses a scene's range of luminance to a display's (paper, section 5.1). In log2 luminance the base is scaled by s0, and every
 /// detail d by
 ///     h(d) = s0 + (1 - s0) (1 - d / dmax)^beta,      d = |detail|, at most dmax.
-/// With coherence > 0 both details of a split take h of their contrast envelope instead: the largest of the two and of
-/// `coherence` times the envelope of the coarser vertices around. That keeps small corrections beside a strong edge
-/// in step with the edge, which Eq. (2) as printed (coherence = 0) does not, and reverses gradients.
+/// With coherence > 0 both details of a split take h of their contrast envelope instead: coherence times the envelope
+/// of the coarser vertices around, and for the rest the contrast of the coarser faces they correct, or their own if larger.
+/// That keeps small corrections beside a strong edge in step with the edge, which Eq. (2) as printed (coherence = 0) does
+/// not: it makes halos and reverses gradients.
 /// Then exposure and white are fitted to the display, unless fit = 0.
 ///
 /// Returns display-linear RGB, 0..1, in the source's primaries (oiio:ColorSpace says which): linear light, white at 1. Hue and saturation are

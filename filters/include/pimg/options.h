@@ -17,10 +17,11 @@ namespace pimg {
 /// What is known of one option apart from where it is stored.
 struct OptionRule {
     const char* key;
-    double min, max;      ///< inclusive range of numbers; both 0 for any
-    const char* unit;     ///< "" for none
-    const char* choices;  ///< words allowed, "a|b|c"; "" for any
-    const char* help;     ///< one line
+    double min, max;        ///< inclusive range of numbers; both 0 for any
+    const char* unit;       ///< "" for none
+    const char* choices;    ///< words allowed, "a|b|c"; "" for any
+    const char* help;       ///< one line
+    const char* sets = "";  ///< what it sets, if others set it too: only one of those may be given
 };
 
 /// A value of any type an option may have.
@@ -68,13 +69,13 @@ std::vector<OptionInfo> describe_options();
 
 /// How the picture is read and its hierarchy built.
 struct BuildOptions {
-    std::string guide;         ///< luma, log or rgb; empty: log for half/float pictures, else luma
-    int base = 128;            ///< faces of the base mesh
+    std::string guide;          ///< luma, log or rgb; empty: log for half/float pictures, else luma
+    int base = 128;             ///< faces of the base mesh
     std::string metric = "volume";  ///< cost of a collapse; quadric and exact are slow, for comparison
-    std::string incolorspace;  ///< colour space of the picture; empty: its oiio:ColorSpace, else sRGB for 8 bit,
-                               ///< else scene-linear
-    std::string mesh = "full";         ///< full: one vertex per pixel; adaptive: fewer, and a residual (section 6)
-    float density = 0.33f;             ///< share of the pixels an adaptive mesh keeps
+    std::string incolorspace;   ///< colour space of the picture; empty: its oiio:ColorSpace, else sRGB for 8 bit,
+                                ///< else scene-linear
+    std::string mesh = "full";  ///< full: one vertex per pixel; adaptive: fewer, and a residual (section 6)
+    float density = 0.33f;      ///< share of the pixels an adaptive mesh keeps
     std::string control = "gradient";  ///< what its density follows: gradient, curvature, or an image file's brightness
 };
 
@@ -119,10 +120,11 @@ struct SegmentOptions {
 /// HDR compression (paper, section 5.1, Eq. 2) with contrast envelope and automatic exposure. Values of 0 marked "found"
 /// are taken from the picture; resolve_hdr_compress() tells them.
 struct HdrCompressOptions {
-    float s0 = 0.0f;         ///< scale of the base and of the largest details; 0: found
-    float beta = 12.0f;      ///< how fast smaller details are compressed less
-    float dmax = 0.0f;       ///< detail compressed fully, in stops; 0: found
-    float coherence = 1.0f;  ///< share of the contrast around it that a detail is compressed for; 0: Eq. (2) as printed
+    float s0 = 0.0f;     ///< scale of the base and of the largest details; 0: found
+    float beta = 10.0f;  ///< how fast smaller details are compressed less
+    float dmax = 0.0f;   ///< detail compressed fully, in stops; 0: found
+    float coherence =
+        0.75f;  ///< how far a detail is compressed like the coarser features around; 0: Eq. (2) as printed
     float saturation = 1.0f;  ///< exponent of the colour ratio; 1 keeps it, 0 is grey
     bool fit = true;          ///< place middle grey and white on the display; false: stay in the picture's units
     float contrast = 0.0f;    ///< factor on the compressed log luminance; 0: found
@@ -196,6 +198,9 @@ const std::vector<Option<InkOptions>>& option_table<InkOptions>();
 bool parse_option(const OptionRule& rule, std::string_view text, OptionValue& value, std::string& error);
 
 bool check_option(const OptionRule& rule, const OptionValue& value, std::string& error);
+
+/// False if two of the options given say the same thing in different ways (OptionRule::sets).
+bool check_alternatives(const std::vector<const OptionRule*>& given, std::string& error);
 OptionInfo describe_option(const OptionRule& rule, const OptionValue& default_value);
 std::string unknown_option(std::string_view key, const std::vector<std::string_view>& known);
 
@@ -227,12 +232,16 @@ template<class T>
 bool check_options(const T& options, std::string& error)
 {
     const T defaults;
+    std::vector<const OptionRule*> given;
     for (const Option<T>& option : option_table<T>()) {
         const OptionValue value = option.get(options);
-        if (value != option.get(defaults) && !check_option(option.rule, value, error))
+        if (value == option.get(defaults))
+            continue;
+        if (!check_option(option.rule, value, error))
             return false;
+        given.push_back(&option.rule);
     }
-    return true;
+    return check_alternatives(given, error);
 }
 
 template<class T>
