@@ -25,6 +25,7 @@ usage: ./dev.sh COMMAND
   build   setup, then configure and build everything in build/release
   test    setup, build with warnings as errors, run every test
   demo    setup, build, tone-map a real HDR photograph and more, in build/demo
+  gallery setup, build, make every figure of the paper and more in docs/gallery (some minutes)
   bench   setup, build, run the benchmarks; arguments go to pimg_bench, $PIMG_BENCH_PICTURE names a picture
   clean   remove build/
   help    this text
@@ -97,6 +98,17 @@ run_demo() {
     tools/demo.sh "$build/tools/pimgtool" build/demo
 }
 
+run_gallery() {
+    setup
+    say "building pimgtool in $build"
+    mkdir -p build
+    configure
+    compile pimgtool
+    say "making the figures"
+    /usr/bin/python3 tools/gallery.py "$build/tools/pimgtool" build/gallery docs/gallery
+    echo "docs/gallery/index.html"
+}
+
 run_bench() {
     setup
     say "building the benchmarks in $build"
@@ -114,6 +126,7 @@ setup) setup && echo "all packages are installed" ;;
 build) run_build ;;
 test) run_test ;;
 demo) run_demo ;;
+gallery) run_gallery ;;
 bench) run_bench "$@" ;;
 clean) rm -rf build ;;
 help | -h | --help) usage ;;

@@ -49,6 +49,16 @@ std::string unknown_command(const std::string& name)
     return format("unknown operation \"{}\": {}", name, hint);
 }
 
+/// The colon that ends the value which starts at `begin`. No key starts with a digit: a colon before one is part of the
+/// value, as in curve=0:1,1:3.
+std::size_t end_of_value(const std::string& text, std::size_t begin)
+{
+    std::size_t end = text.find(':', begin);
+    while (end != std::string::npos && end + 1 < text.size() && text[end + 1] >= '0' && text[end + 1] <= '9')
+        end = text.find(':', end + 1);
+    return end;
+}
+
 /// Takes the words a command needs from the arguments after `at`.
 bool take_words(const std::vector<std::string>& arguments, std::size_t& at, Call& call, std::string& error)
 {
@@ -124,7 +134,7 @@ bool split_keys(const std::string& text, Call& call, std::string& error)
             return false;
         }
         std::size_t begin = equals + 1;
-        std::size_t end = text.find(':', begin);
+        std::size_t end = end_of_value(text, begin);
         std::size_t next = end;
         if (begin < text.size() && (text[begin] == '"' || text[begin] == '\'')) {
             const std::size_t closing = text.find(text[begin], begin + 1);

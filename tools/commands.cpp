@@ -374,6 +374,12 @@ CommandGroup filters_group()
                  filter<pimg::HdrCompressOptions>("--hdr-compress",
                                                   "fits high dynamic range to a display: linear light, white at 1",
                                                   iba::hdr_compress, Meaning::display_linear),
+                 filter<pimg::SegmentOptions>("--segment", "merges what looks alike into connected regions",
+                                              iba::segment),
+                 filter<pimg::PaintOptions>("--paint", "paints with brush strokes that follow the picture's forms",
+                                            iba::paint),
+                 filter<pimg::MosaicOptions>("--mosaic", "lays the pieces of a level as tiles", iba::mosaic),
+                 filter<pimg::InkOptions>("--ink", "draws with pen and ink", iba::ink),
              } };
 }
 

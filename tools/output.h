@@ -31,6 +31,7 @@ struct OutputPicture {
     const OIIO::ImageBuf& pixels;
     PixelTypes types;  ///< wanted; the format may know better
     bool encode_srgb;  ///< encode for display if the format stores whole numbers
+    bool labels;       ///< uint32 numbers, to be stored as they are; type UNKNOWN: as the format holds them best
     const pimg::Hierarchy* hierarchy = nullptr;  ///< of `pixels`, for a .pimg file
     pimg::io::WriteOptions options = {};         ///< of a .pimg file
 };

@@ -138,7 +138,12 @@ bool Session::write(const std::string& filename, const pimg::io::WriteOptions& o
     }
     const StageTimer timer(stats, Stage::write);
     const Picture& picture = top();
-    OutputPicture out { *picture.pixels, picture.stored, picture.linear_light && !output.raw, hierarchy, options };
+    OutputPicture out { *picture.pixels, picture.stored, picture.linear_light && !output.raw, picture.labels, hierarchy,
+                        options };
+    if (picture.labels) {
+        out.types = { OIIO::TypeUnknown, {} };
+        out.encode_srgb = false;
+    }
     if (output.type != OIIO::TypeUnknown)
         out.types = { output.type, {} };
     ProgressBar bar(label("writing", filename));
@@ -201,6 +206,7 @@ bool Session::filter(const Filter& run, Meaning meaning)
     picture.hierarchy->options.incolorspace.clear();
     if (meaning == Meaning::display_linear)
         picture.linear_light = true;
+    picture.labels = result->spec().format == OIIO::TypeUInt32 && result->spec().find_attribute("pimg:regions");
     say(format("{}: filtered, {:.3f} s", picture.name, timer.seconds()));
     top() = picture;
     return true;

@@ -33,6 +33,7 @@ struct Picture {
     std::shared_ptr<LazyHierarchy> hierarchy;
     PixelTypes stored;          ///< pixel types of the file it came from: what it is written as unless told otherwise
     bool linear_light = false;  ///< its numbers are linear light that no colour operation has converted
+    bool labels = false;        ///< its numbers are those of regions
 };
 
 /// What the numbers of a filter's result mean.

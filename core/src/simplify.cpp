@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "collapse_metric.h"
 #include "collapse_record.h"
 #include "tile_worker.h"
 #include "working_mesh.h"
@@ -176,6 +177,8 @@ Status simplify(const Guide& guide, const SimplifyOptions& options, Hierarchy& h
     Hierarchy shape;
     shape.width = guide.width;
     shape.height = guide.height;
+    if (options.initial && options.metric != Metric::volume)
+        return Status::failure("an initial mesh needs the metric volume: quadric and exact start from one vertex per pixel");
     if (options.initial && options.initial->twins.size() != options.initial->corners.size())
         return Status::failure("the initial mesh has no twins");
     if (options.initial
@@ -189,7 +192,15 @@ Status simplify(const Guide& guide, const SimplifyOptions& options, Hierarchy& h
             c.samples = samples.back().data();
         }
     CollapseSequence sequence;
-    {
+    if (options.metric != Metric::volume) {
+        PlainMesh mesh(on_mesh);
+        SimplifyStats counted;
+        const auto metric = options.metric == Metric::quadric ? quadric_metric(mesh) : exact_metric(mesh);
+        if (!collapse_all(mesh, *metric, options.progress, sequence, counted))
+            return Status::failure("building was stopped");
+        if (stats)
+            *stats = counted;
+    } else {
         Simplifier simplifier(options.initial ? WorkingMesh(on_mesh, *options.initial) : WorkingMesh(on_mesh), options);
         if (options.initial)
             std::vector<Index>().swap(options.initial->twins);

@@ -22,22 +22,24 @@ bool is_empty(const OIIO::ROI& roi)
 
 }  // namespace
 
-bool prepare(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, ResultType type)
+namespace {
+
+bool is_built(OIIO::ImageBuf& dst, const ProgressiveImage& src)
 {
-    if (!src.initialized()) {
+    if (!src.initialized())
         dst.errorfmt("{}", src.error().empty() ? "the progressive image has not been built" : src.error());
-        return false;
-    }
-    ProgressiveImage::Data& data = *src.data();
+    return src.initialized();
+}
+
+/// prepare() with the spec of a destination that does not exist yet.
+bool prepare_as(OIIO::ImageBuf& dst, ProgressiveImage::Data& data, OIIO::ROI& roi, OIIO::ImageSpec spec)
+{
     // A region with nothing of the source in it is no error, but IBAprep would turn it inside out.
     const OIIO::ROI whole = data.source.roi();
     if (roi.defined() && is_empty(OIIO::roi_intersection(roi, whole))) {
         roi = OIIO::ROI(whole.xbegin, whole.xbegin, whole.ybegin, whole.ybegin);
         return true;
     }
-    OIIO::ImageSpec spec = data.spec;
-    if (type == ResultType::full_float || (type == ResultType::floating && !is_floating(spec.format)))
-        spec.format = OIIO::TypeDesc::FLOAT;
     spec.channelformats.clear();
     spec.tile_width = spec.tile_height = spec.tile_depth = 0;
     if (!OIIO::ImageBufAlgo::IBAprep(roi, &dst, &data.source, nullptr, nullptr, &spec,
@@ -46,6 +48,37 @@ bool prepare(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, R
     roi = OIIO::roi_intersection(roi, whole);
     roi.chend = std::min({ roi.chend, dst.nchannels(), data.source.nchannels() });
     return true;
+}
+
+}  // namespace
+
+bool prepare(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, ResultType type)
+{
+    if (!is_built(dst, src))
+        return false;
+    OIIO::ImageSpec spec = src.data()->spec;
+    if (type == ResultType::full_float || (type == ResultType::floating && !is_floating(spec.format)))
+        spec.format = OIIO::TypeDesc::FLOAT;
+    return prepare_as(dst, *src.data(), roi, spec);
+}
+
+bool prepare_single(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, const char* name,
+                    OIIO::TypeDesc type)
+{
+    if (!is_built(dst, src))
+        return false;
+    ProgressiveImage::Data& data = *src.data();
+    OIIO::ImageSpec spec = data.spec;
+    spec.nchannels = 1;
+    spec.channelnames = { name };
+    spec.alpha_channel = spec.z_channel = -1;
+    if (type != OIIO::TypeDesc::UNKNOWN)
+        spec.format = type;
+    if (!roi.defined())
+        roi = dst.initialized() ? dst.roi() : data.source.roi();
+    roi.chbegin = 0;
+    roi.chend = 1;
+    return prepare_as(dst, data, roi, spec);
 }
 
 void write_rows(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, OIIO::ROI roi, const ParallelFor& parallel,

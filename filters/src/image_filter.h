@@ -27,6 +27,11 @@ enum class ResultType {
 /// an error in `dst`. Afterwards `roi` lies within both pictures; it may be empty, and then there is nothing to do.
 bool prepare(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, ResultType type);
 
+/// The same for results of one channel called `name`: a new `dst` has no other, and only the first of an old one
+/// changes. UNKNOWN: the pixel type of the source.
+bool prepare_single(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, const char* name,
+                    OIIO::TypeDesc type);
+
 /// Makes results of the colour channels of row `y` for the pixels [roi.xbegin, roi.xend) of the
 /// picture. `row` holds all channels of those pixels, as in the source.
 using RowFilter = std::function<void(int y, float* row)>;

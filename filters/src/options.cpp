@@ -192,9 +192,12 @@ const std::vector<Option<BuildOptions>>& option_table<BuildOptions>()
         { &T::guide,
           { "guide", 0, 0, "", "luma|log|rgb", "what decides the mesh; log for half/float pictures, else luma" } },
         { &T::base, { "base", 2, kAnyInt, "faces", "", "size of the base mesh" } },
+        { &T::metric,
+          { "metric", 0, 0, "", "volume|quadric|exact",
+            "cost of a collapse; the last two are slow, to compare" } },
         { &T::incolorspace,
           { "incolorspace", 0, 0, "", "",
-            "colour space of the picture; its metadata, else sRGB for 8 bit, else linear" } },
+            "colour space of the picture; metadata, else sRGB for 8 bit, else linear" } },
         { &T::mesh, { "mesh", 0, 0, "", "full|adaptive", "a vertex for every pixel, or fewer: faster, still exact" } },
         { &T::density, { "density", 1e-6, 1, "", "", "share of the pixels an adaptive mesh keeps" } },
         { &T::control, { "control", 0, 0, "", "", "what density follows: gradient, curvature, or an image file" } },
@@ -280,8 +283,26 @@ const std::vector<Option<DetailEnhanceOptions>>& option_table<DetailEnhanceOptio
                         { "from", 0, kAnyInt, "", "",
                           "in place of these: first split amplified, a share of all or, above 1, their number" } });
         all.push_back({ &T::to, { "to", 0, kAnyInt, "", "", "end of the range, likewise" } });
+        all.push_back({ &T::curve,
+                        { "curve", 0, 0, "", "",
+                          "position:gain,position:gain,... linear in between; instead of gain, from and to" } });
         return all;
     }();
+    return table;
+}
+
+template<>
+const std::vector<Option<SegmentOptions>>& option_table<SegmentOptions>()
+{
+    using T = SegmentOptions;
+    static const std::vector<Option<T>> table = {
+        { &T::regions, { "regions", 1, kAnyInt, "regions", "", "how many; 200 without threshold" } },
+        { &T::threshold,
+          { "threshold", 0, kAnyFloat, "", "", "cost that every border left exceeds: squared CIELAB units times pixels" } },
+        { &T::output,
+          { "output", 0, 0, "", "labels|mean|boundaries", "numbers from 0, mean colours, or 1 at the borders" } },
+        { &T::stats, { "stats", 0, 0, "", "", "file for figures of every region: .json or else CSV" } },
+    };
     return table;
 }
 
@@ -301,6 +322,59 @@ const std::vector<Option<HdrCompressOptions>>& option_table<HdrCompressOptions>(
         { &T::key, { "key", 0, kAnyFloat, "", "", "luminance after compression shown as middle grey; 0: found" } },
         { &T::white, { "white", 0, kAnyFloat, "", "", "luminance after compression shown as white; 0: found" } },
         { &T::exposure, { "exposure", -20, 20, "stops", "", "brightness added" } },
+    };
+    return table;
+}
+
+template<>
+const std::vector<Option<PaintOptions>>& option_table<PaintOptions>()
+{
+    using T = PaintOptions;
+    static const std::vector<Option<T>> table = {
+        { &T::min, { "min", 1, 1000, "pixels", "", "width of the narrowest brush" } },
+        { &T::max, { "max", 1, 1000, "pixels", "", "width of the widest brush" } },
+        { &T::brush, { "brush", 0, 0, "", "", "round, flat, bristle, knife, or a picture: alpha where, grey how thick" } },
+        { &T::length, { "length", 0, 10, "", "", "factor on the length of strokes" } },
+        { &T::tolerance, { "tolerance", 0, 255, "8-bit steps", "", "least improvement a stroke must bring; 0: all strokes" } },
+        { &T::opacity, { "opacity", 0, 1, "", "", "of every stroke; 0 leaves the canvas as it is" } },
+        { &T::impasto, { "impasto", 0, 1, "", "", "strength of the light on the relief of the paint" } },
+        { &T::jitter_color, { "jitter_color", 0, 1, "", "", "random change of a stroke's brightness, as a share of it" } },
+        { &T::jitter_angle, { "jitter_angle", 0, 1, "", "", "random turn of a stroke, as a share of 45 degrees" } },
+        { &T::jitter_size, { "jitter_size", 0, 1, "", "", "random change of a stroke's width, as a share of it" } },
+        { &T::seed, { "seed", 0, kAnyInt, "", "", "of all that is random" } },
+        { &T::canvas, { "canvas", 0, 0, "", "", "white, black, R,G,B or a picture to paint on; else the picture itself" } },
+        { &T::detail, { "detail", 0, 0, "", "", "picture scaling the brushes: white 1/4, 0.5 unchanged, black 4 times" } },
+        { &T::strokes, { "strokes", 0, 0, "", "", "FILE.svg or FILE.json to write the strokes to" } },
+    };
+    return table;
+}
+
+template<>
+const std::vector<Option<MosaicOptions>>& option_table<MosaicOptions>()
+{
+    using T = MosaicOptions;
+    static const std::vector<Option<T>> table = {
+        { &T::tiles, { "tiles", 4, kAnyInt, "tiles", "", "number of tiles; at least those of the base mesh" } },
+        { &T::grout, { "grout", 0, 64, "pixels", "", "width of the joints" } },
+        { &T::bevel, { "bevel", 0, 64, "pixels", "", "width of the slope around a tile" } },
+        { &T::relief, { "relief", 0, 1, "", "", "how strongly the slopes are lit" } },
+        { &T::color, { "color", 0, 0, "", "", "of the joints: white, black, grey level or R,G,B" } },
+    };
+    return table;
+}
+
+template<>
+const std::vector<Option<InkOptions>>& option_table<InkOptions>()
+{
+    using T = InkOptions;
+    static const std::vector<Option<T>> table = {
+        { &T::width, { "width", 0.5, 16, "pixels", "", "of the pen" } },
+        { &T::length, { "length", 0.1, 10, "", "", "factor on the length of lines" } },
+        { &T::density, { "density", 0, 4, "", "", "factor on the darkness" } },
+        { &T::outline, { "outline", 0, 4, "", "", "darkness added along edges" } },
+        { &T::cross, { "cross", 0, 0, "", "", "cross the lines where it is dark" } },
+        { &T::seed, { "seed", 0, kAnyInt, "", "", "of all that is random" } },
+        { &T::strokes, { "strokes", 0, 0, "", "", "FILE.svg or FILE.json to write the lines to" } },
     };
     return table;
 }

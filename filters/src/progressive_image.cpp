@@ -169,6 +169,8 @@ Status ProgressiveImage::Data::simplify_guide(const std::vector<Raster>& channel
     Guide guide { channels[0].width, channels[0].height, {} };
     for (const Raster& channel : channels)
         guide.channels.push_back({ channel.samples.data() });
+    if (options.metric != "volume" && options.mesh == "adaptive")
+        return Status::failure("metric=" + options.metric + ": expected volume with mesh=adaptive");
     Stopwatch watch;
     InitialMesh initial;
     std::string error;
@@ -178,6 +180,9 @@ Status ProgressiveImage::Data::simplify_guide(const std::vector<Raster>& channel
 
     SimplifyOptions simplify_options;
     simplify_options.base_faces = Index(options.base);
+    simplify_options.metric = options.metric == "quadric" ? Metric::quadric
+                              : options.metric == "exact" ? Metric::exact
+                                                          : Metric::volume;
     simplify_options.parallel = parallel;
     simplify_options.progress = progress;
     if (initial.vertices() > 0)
@@ -291,6 +296,8 @@ std::size_t ProgressiveImage::Data::memory()
             total += bytes(bands);
     for (const std::unique_ptr<SmoothingData>& smoothing : m_smoothing)
         total += smoothing != nullptr ? smoothing->source.memory() : 0;
+    if (m_regions != nullptr)
+        total += m_regions->memory();
     if (m_envelope != nullptr)
         total += m_envelope->capacity() * sizeof(float);
     return total;

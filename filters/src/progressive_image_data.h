@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <pimg/progressive_image.h>
+#include <pimg/regions.h>
 #include <pimg/sampling.h>
 
 #include "guide.h"
@@ -48,6 +49,10 @@ struct ProgressiveImage::Data {
     /// See contrast_envelope(). Kept for the coherence used last.
     std::shared_ptr<const std::vector<float>> envelope(float coherence);
 
+    /// Merges of the picture's pieces, fit for cuts into `regions` regions. Kept. Null, with an error, like the bands.
+    std::shared_ptr<const RegionTree> region_tree(std::size_t regions, const ParallelFor& parallel,
+                                                  std::string& error);
+
     std::size_t memory();
 
     /// The steps of build() and adopt(). `make_hierarchy` fills in the hierarchy and the bands of the guide.
@@ -72,6 +77,7 @@ private:
     Bands m_log_bands;  ///< if they are not the guide's
     float m_envelope_coherence = -1.0f;
     std::shared_ptr<const std::vector<float>> m_envelope;
+    std::shared_ptr<const RegionTree> m_regions;
 };
 
 }  // namespace pimg

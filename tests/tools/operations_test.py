@@ -18,6 +18,10 @@ FILTERS = (
     "--feature-lowpass:splits=300",
     "--detail-enhance:gain=3:from=0.05",
     "--hdr-compress:s0=0.2:beta=4",
+    "--segment:threshold=50:output=mean",
+    "--paint:min=2:impasto=0.5",
+    "--mosaic:tiles=150",
+    "--ink",
 )
 UNCHANGING = ("--build", "--level", "--feature-lowpass:fraction=1", "--detail-enhance:gain=1")
 
@@ -102,6 +106,26 @@ class Operations(pictures.ToolTest):
         self.ok("hdr.exr", *each_on_a_copy([f"--detail-enhance:gain={gain}:from=0.3" for gain in gains], "out.exr"))
         contrast = [np.abs(np.diff(read(f"{i}-out.exr"), axis=1)).mean() for i in range(len(gains))]
         self.assertEqual(contrast, sorted(contrast))
+
+    def test_labels_are_numbers_in_every_format(self):
+        self.ok("rgb.png", "--segment:regions=300:stats=regions.csv", "-o", "out.png", "-o", "out.tif", "-o", "out.exr")
+        labels = {name: read(name, kind) for name, kind in
+                  (("out.png", "uint16"), ("out.tif", "uint32"), ("out.exr", "float"))}
+        self.assertEqual(set(labels["out.png"].flat), set(range(300)))
+        for name in labels:
+            self.assertTrue(np.array_equal(labels[name].astype(int), labels["out.png"].astype(int)), name)
+        with open("regions.csv", encoding="utf-8") as file:
+            self.assertEqual(len(file.read().splitlines()), 301)
+        self.fails("rgb.png", "--segment:regions=300", "-d", "uint8", "-o", "8.png", says="at most 256")
+
+    def test_painting_and_drawing_export_their_strokes(self):
+        self.ok("rgb.png", "--dup", "--paint:strokes=paint.svg", "--pop", "--dup", "--ink:strokes=ink.svg", "--pop",
+                "--paint:strokes=paint.json", "-o", "out.png")
+        for name in ("paint.svg", "ink.svg"):
+            with open(name, encoding="utf-8") as file:
+                self.assertTrue(file.read().startswith("<svg"), name)
+        with open("paint.json", encoding="utf-8") as file:
+            self.assertGreater(len(json.load(file)["strokes"]), 10)
 
     def test_hdr_compression_fits_a_display(self):
         self.ok("hdr.exr", "--hdr-compress", "-o", "out.exr")

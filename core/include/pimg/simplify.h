@@ -13,12 +13,21 @@
 
 namespace pimg {
 
+/// What a collapse costs and where it puts the vertex. The last two are slower and worse; they are there for comparison
+/// (paper, Fig. 2), use one thread, start from one vertex per pixel, and do not preserve the volume.
+enum class Metric {
+    volume,   ///< memoryless volume optimisation (Lindstrom & Turk 1998, 1999)
+    quadric,  ///< squared distance to all planes merged so far (Garland & Heckbert 1997)
+    exact,    ///< largest deviation from any pixel, half-edge collapse
+};
+
 struct SimplifyOptions {
-    Index base_faces = 128;                ///< triangles of the base mesh; 2 (the four corners) or more
-    ParallelFor parallel;                  ///< threads to use; the result does not depend on them
+    Index base_faces = 128;  ///< triangles of the base mesh; 2 (the four corners) or more
+    ParallelFor parallel;    ///< threads to use; the result does not depend on them
     Progress progress;
     InitialMesh* initial = nullptr;  ///< mesh to start from (sampling.h), whose twins are given up as soon as they have been
                                      ///< read, to save memory; none: one vertex per pixel
+    Metric metric = Metric::volume;
 };
 
 /// What building returns besides the hierarchy.

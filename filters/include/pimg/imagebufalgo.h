@@ -69,8 +69,9 @@ ImageBuf feature_lowpass(const ImageBuf& src, const FeatureLowpassOptions& optio
 ImageBuf feature_lowpass(const ProgressiveImage& src, const FeatureLowpassOptions& options = {}, ROI roi = {},
                          int nthreads = 0);
 
-/// Multiplies details by `gain`: those of a range of splits (paper, section 4.1) or, with strength, noise or log, what
-/// feature_lowpass() of that strength removes, less on edges so that they keep their shape. gain = 1: the source, bit for bit.
+/// Multiplies details by `gain`: those of a range of splits (paper, section 4.1), by a curve over the position in the
+/// hierarchy, or, with strength, noise or log, what feature_lowpass() of that strength removes, less on edges so that they
+/// keep their shape. gain = 1: the source, bit for bit.
 /// dst: floating point; results may exceed the source's range.
 bool detail_enhance(ImageBuf& dst, const ImageBuf& src, const DetailEnhanceOptions& options = {}, ROI roi = {},
                     int nthreads = 0);
@@ -95,6 +96,45 @@ bool wireframe(ImageBuf& dst, const ProgressiveImage& src, const WireframeOption
                int nthreads = 0);
 ImageBuf wireframe(const ImageBuf& src, const WireframeOptions& options = {}, ROI roi = {}, int nthreads = 0);
 ImageBuf wireframe(const ProgressiveImage& src, const WireframeOptions& options = {}, ROI roi = {}, int nthreads = 0);
+
+/// Partitions the picture into connected regions that look alike, by merging its pieces, most alike first (paper, section 4.2). Colours
+/// are compared in CIELAB: of linear light, with the median luminance at 0.18 if the picture is
+/// scene-linear and so has no white. The merges are kept with the ProgressiveImage: other numbers
+/// of regions cost one pass, and coarser regions are unions of finer ones. Exactly `regions` of them, 4-connected.
+///   labels      one channel of region numbers from 0, in order of their first pixel, row by row, not scaled to any range. dst: uint32.
+///   mean        every colour channel at its mean over the region, as stored; special samples count as what is around them.
+///   boundaries  one channel, 1 where the right or lower neighbour is in another region, else 0.
+/// stats=FILE writes area, centre, bounding box, and mean and deviation of every channel, for each region.
+bool segment(ImageBuf& dst, const ImageBuf& src, const SegmentOptions& options = {}, ROI roi = {}, int nthreads = 0);
+bool segment(ImageBuf& dst, const ProgressiveImage& src, const SegmentOptions& options = {}, ROI roi = {},
+             int nthreads = 0);
+ImageBuf segment(const ImageBuf& src, const SegmentOptions& options = {}, ROI roi = {}, int nthreads = 0);
+ImageBuf segment(const ProgressiveImage& src, const SegmentOptions& options = {}, ROI roi = {}, int nthreads = 0);
+
+/// Paints the picture with brush strokes (paper, section 5.2): one for every base vertex and for both vertices of every
+/// split, from coarse to fine, placed and sized by their dual pieces, bent along the edges, and left out where they
+/// would not bring the canvas closer to the picture. Paint ends at the picture's edges. NaN and Inf are painted over.
+/// opacity = 0 on the picture's own canvas: the source, bit for bit. Nothing is clipped.
+bool paint(ImageBuf& dst, const ImageBuf& src, const PaintOptions& options = {}, ROI roi = {}, int nthreads = 0);
+bool paint(ImageBuf& dst, const ProgressiveImage& src, const PaintOptions& options = {}, ROI roi = {},
+           int nthreads = 0);
+ImageBuf paint(const ImageBuf& src, const PaintOptions& options = {}, ROI roi = {}, int nthreads = 0);
+ImageBuf paint(const ProgressiveImage& src, const PaintOptions& options = {}, ROI roi = {}, int nthreads = 0);
+
+/// Lays the dual pieces of the level with that many vertices as tiles of their mean colour, with joints and bevels.
+/// NaN and Inf become what is around them.
+bool mosaic(ImageBuf& dst, const ImageBuf& src, const MosaicOptions& options = {}, ROI roi = {}, int nthreads = 0);
+bool mosaic(ImageBuf& dst, const ProgressiveImage& src, const MosaicOptions& options = {}, ROI roi = {},
+            int nthreads = 0);
+ImageBuf mosaic(const ImageBuf& src, const MosaicOptions& options = {}, ROI roi = {}, int nthreads = 0);
+ImageBuf mosaic(const ProgressiveImage& src, const MosaicOptions& options = {}, ROI roi = {}, int nthreads = 0);
+
+/// Draws the picture with black lines (0) on white paper (1): along the edges, as dense as it is dark.
+bool ink(ImageBuf& dst, const ImageBuf& src, const InkOptions& options = {}, ROI roi = {}, int nthreads = 0);
+bool ink(ImageBuf& dst, const ProgressiveImage& src, const InkOptions& options = {}, ROI roi = {},
+         int nthreads = 0);
+ImageBuf ink(const ImageBuf& src, const InkOptions& options = {}, ROI roi = {}, int nthreads = 0);
+ImageBuf ink(const ProgressiveImage& src, const InkOptions& options = {}, ROI roi = {}, int nthreads = 0);
 
 /// The level the options ask for. False, with an error, if they ask for several.
 bool find_level(const Hierarchy& hierarchy, const LevelOptions& options, Level& level, std::string& error);

@@ -71,6 +71,7 @@ std::vector<OptionInfo> describe_options();
 struct BuildOptions {
     std::string guide;          ///< luma, log or rgb; empty: log for half/float pictures, else luma
     int base = 128;             ///< faces of the base mesh
+    std::string metric = "volume";  ///< cost of a collapse; quadric and exact are slow, for comparison
     std::string incolorspace;   ///< colour space of the picture; empty: its oiio:ColorSpace, else sRGB for 8 bit,
                                 ///< else scene-linear
     std::string mesh = "full";  ///< full: one vertex per pixel; adaptive: fewer, and a residual (section 6)
@@ -112,6 +113,17 @@ struct DetailEnhanceOptions : StrengthOptions {
     float gain = 2.0f;
     float from = 0.1f;  ///< first split amplified: a share of all splits, or a number of splits if above 1
     float to = 1.0f;    ///< end of the range, likewise
+    /// Gain as a function of the position, instead of the three above: "0:1,0.1:1,0.2:3,1:3" is linear between those
+    /// places and constant outside. Positions as for `from`, never falling; the same twice is a jump.
+    std::string curve;
+};
+
+/// Merges adjacent pieces of the picture into regions (paper, section 4.2).
+struct SegmentOptions {
+    int regions = -1;               ///< how many; 200 if threshold is not given either
+    float threshold = -1.0f;        ///< merge until every border costs more: squared CIELAB units times pixels
+    std::string output = "labels";  ///< labels, mean or boundaries
+    std::string stats;              ///< file for figures of every region, .json or else CSV; empty: none
 };
 
 /// HDR compression (paper, section 5.1, Eq. 2) with contrast envelope and automatic exposure. Values of 0 marked "found"
@@ -130,6 +142,44 @@ struct HdrCompressOptions {
     float exposure = 0.0f;    ///< brightness added to that, in stops
 };
 
+/// Painterly rendering (paper, section 5.2).
+struct PaintOptions {
+    float min = 3.0f;              ///< narrowest brush in pixels
+    float max = 32.0f;             ///< widest brush in pixels
+    std::string brush = "bristle"; ///< round, flat, bristle, knife, or a picture: alpha says where, grey how thick
+    float length = 1.0f;           ///< factor on the length of strokes
+    float tolerance = 3.0f;        ///< least improvement a stroke must bring, in 8-bit steps; 0: strokes for all splits
+    float opacity = 1.0f;          ///< of every stroke; 0 leaves the canvas
+    float impasto = 0.0f;          ///< strength of the light on the relief of the paint
+    float jitter_color = 0.0f;     ///< random change of a stroke's brightness, as a share of it
+    float jitter_angle = 0.0f;     ///< random turn of a stroke, as a share of 45 degrees
+    float jitter_size = 0.0f;      ///< random change of a stroke's width, as a share of it
+    int seed = 1;                  ///< of all that is random
+    std::string canvas;            ///< colour or picture painted on; empty: the picture itself
+    std::string detail;            ///< picture that scales the brushes: white for a quarter, grey 0.5 as they are, black for four times
+    std::string strokes;           ///< FILE.svg or FILE.json the strokes are written to; empty: none
+};
+
+/// Dual pieces as the tiles of a mosaic (paper, section 7).
+struct MosaicOptions {
+    int tiles = 2000;            ///< number of tiles
+    float grout = 1.5f;          ///< width of the joints in pixels
+    float bevel = 2.0f;          ///< width of the slope around a tile in pixels
+    float relief = 0.5f;         ///< how strongly the slopes are lit
+    std::string color = "0.15";  ///< of the joints, in the picture's units
+};
+
+/// Pen and ink (paper, section 7).
+struct InkOptions {
+    float width = 1.3f;    ///< of the pen in pixels
+    float length = 1.0f;   ///< factor on the length of lines
+    float density = 1.0f;  ///< factor on the darkness
+    float outline = 1.0f;  ///< darkness added along edges
+    bool cross = true;     ///< a second direction where it is dark
+    int seed = 1;          ///< of all that is random
+    std::string strokes;   ///< FILE.svg or FILE.json the lines are written to; empty: none
+};
+
 template<>
 const std::vector<Option<BuildOptions>>& option_table<BuildOptions>();
 template<>
@@ -142,6 +192,14 @@ template<>
 const std::vector<Option<DetailEnhanceOptions>>& option_table<DetailEnhanceOptions>();
 template<>
 const std::vector<Option<HdrCompressOptions>>& option_table<HdrCompressOptions>();
+template<>
+const std::vector<Option<SegmentOptions>>& option_table<SegmentOptions>();
+template<>
+const std::vector<Option<PaintOptions>>& option_table<PaintOptions>();
+template<>
+const std::vector<Option<MosaicOptions>>& option_table<MosaicOptions>();
+template<>
+const std::vector<Option<InkOptions>>& option_table<InkOptions>();
 
 // ---- implementation ---------------------------------------------------------------------------------------
 

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A small picture of the painting in progress, to judge strokes by before they are really painted.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <pimg/strokes.h>
+
+namespace pimg {
+
+/// A colour in guide units; channels the guides do not have are 0.
+using Shade = std::array<float, 3>;
+
+/// Root mean square difference over `channels`.
+inline float difference(const Shade& a, const Shade& b, float per_channel)
+{
+    const float x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+    return std::sqrt((x * x + y * y + z * z) * per_channel);
+}
+
+/// Guides with a little smoothing (sigma one pixel), interleaved for quick reading at any place.
+class ShadePicture {
+    static constexpr std::size_t kChannels = std::tuple_size<Shade>::value;
+
+public:
+    explicit ShadePicture(const Planes& guides, const ParallelFor& parallel);
+
+    const Shade& at(Vec2 p) const
+    {
+        const int x = p.x > 0.0f ? int(p.x + 0.5f) : 0, y = p.y > 0.0f ? int(p.y + 0.5f) : 0;
+        return pixel(x < m_width ? x : m_width - 1, y < m_height ? y : m_height - 1);
+    }
+    /// Bilinear.
+    Shade between(Vec2 p) const;
+    const Shade& pixel(int x, int y) const { return m_shades[std::size_t(y) * std::size_t(m_width) + std::size_t(x)]; }
+    /// Difference between the two sides of an edge through the pixel; small where there is none.
+    float contrast(int x, int y) const;
+
+    float distance(const Shade& a, const Shade& b) const { return difference(a, b, m_per_channel); }
+    int width() const { return m_width; }
+    int height() const { return m_height; }
+
+private:
+    int m_width, m_height;
+    float m_per_channel;
+    std::vector<Shade> m_shades;
+};
+
+/// The canvas in cells of some pixels: what the picture has there and what has been painted.
+class Sketch {
+public:
+    Sketch(const ShadePicture& picture, int cell);
+
+    /// Mean of |picture - painted| - |picture - shade| over the cells under a stroke; cells never
+    /// painted count as `bare` away. Negative if the stroke would do harm.
+    float gain(const Vec2* points, int count, float width, const Shade& shade, float bare) const;
+    void put(const Vec2* points, int count, float width, const Shade& shade);
+    /// Marks what lies under a stroke as covered from below; what is painted there stays on top.
+    void put_below(const Vec2* points, int count, float width, const Shade& shade);
+
+    bool is_covered(Vec2 p) const;
+    /// Centres, in pixels, of cells nothing has been painted on.
+    std::vector<Vec2> bare_cells() const;
+
+private:
+    template<class Visit>
+    void visit(const Vec2* points, int count, float width, Visit&& visit) const;
+
+    const ShadePicture& m_picture;
+    int m_cell, m_columns, m_rows;
+    std::vector<Shade> m_wanted, m_painted;
+    std::vector<char> m_covered;
+};
+
+}  // namespace pimg

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <pimg/imagebufalgo.h>
+
+#include "core/pictures.h"
+
+namespace iba = pimg::ImageBufAlgo;
+using OIIO::ImageBuf;
+using OIIO::ImageSpec;
+using OIIO::ROI;
+
+namespace {
+
+/// A scene in linear light, from -0.1 to some thousand, with alpha.
+ImageBuf picture(int width, int height, OIIO::TypeDesc type = OIIO::TypeDesc::FLOAT, int channels = 4)
+{
+    ImageSpec spec(width, height, channels, type);
+    if (channels == 4)
+        spec.alpha_channel = 3;
+    ImageBuf buf(spec);
+    for (ImageBuf::Iterator<float> p(buf); !p.done(); ++p) {
+        const float v = pimg::test::scene(p.x(), p.y(), width, height) / 255.0f;
+        for (int c = 0; c < channels; ++c)
+            buf.setpixel(p.x(), p.y(), 0, std::vector<float> { v, v * v, 0.5f * v, 0.5f + 0.5f * v }.data(), channels);
+    }
+    return buf;
+}
+
+std::vector<float> samples(const ImageBuf& buf, int channel = -1)
+{
+    ROI roi = buf.roi();
+    if (channel >= 0) {
+        roi.chbegin = channel;
+        roi.chend = channel + 1;
+    }
+    std::vector<float> values(std::size_t(roi.npixels()) * std::size_t(roi.nchannels()));
+    buf.get_pixels(roi, OIIO::TypeDesc::FLOAT, values.data());
+    return values;
+}
+
+bool same_bits(const ImageBuf& a, const ImageBuf& b)
+{
+    const std::vector<float> x = samples(a), y = samples(b);
+    return x.size() == y.size() && std::memcmp(x.data(), y.data(), 4 * x.size()) == 0;
+}
+
+TEST(paint, opacity_zero_is_the_source_bit_for_bit)
+{
+    pimg::PaintOptions options;
+    options.opacity = 0.0f;
+    options.impasto = 1.0f;
+    for (const OIIO::TypeDesc type : { OIIO::TypeDesc::UINT8, OIIO::TypeDesc::HALF, OIIO::TypeDesc::FLOAT }) {
+        ImageBuf src = picture(60, 44, type);
+        if (type == OIIO::TypeDesc::FLOAT) {
+            const float odd[4] = { std::numeric_limits<float>::quiet_NaN(), -3.0f, 1e9f, 0.25f };
+            src.setpixel(7, 7, 0, odd, 4);
+        }
+        const ImageBuf result = iba::paint(src, options);
+        ASSERT_FALSE(result.has_error()) << result.geterror();
+        EXPECT_TRUE(same_bits(src, result)) << type.c_str();
+        EXPECT_EQ(result.spec().format, type);
+    }
+}
+
+TEST(paint, keeps_alpha_and_does_not_clip)
+{
+    ImageBuf src = picture(96, 80);
+    for (ImageBuf::Iterator<float> p(src); !p.done(); ++p) {
+        p[0] = p.x() < 48 ? -5.0f : 4000.0f;
+        p[1] = p.x() < 48 ? -5.0f : 4000.0f;
+        p[2] = p.x() < 48 ? -5.0f : 4000.0f;
+    }
+    const ImageBuf result = iba::paint(src);
+    ASSERT_FALSE(result.has_error()) << result.geterror();
+    EXPECT_EQ(samples(src, 3), samples(result, 3));
+    EXPECT_NEAR(result.getchannel(10, 40, 0, 0), -5.0f, 1.0f);
+    EXPECT_NEAR(result.getchannel(86, 40, 0, 0), 4000.0f, 800.0f);
+}
+
+TEST(paint, is_the_same_at_any_thread_count_and_for_the_same_seed_only)
+{
+    const ImageBuf src = picture(150, 130);
+    pimg::PaintOptions options;
+    options.jitter_color = 0.2f;
+    options.impasto = 0.5f;
+    const ImageBuf one = iba::paint(src, options, {}, 1), three = iba::paint(src, options, {}, 3);
+    EXPECT_TRUE(same_bits(one, three));
+    options.seed = 2;
+    EXPECT_FALSE(same_bits(one, iba::paint(src, options, {}, 1)));
+}
+
+TEST(paint, a_region_is_that_part_of_the_whole)
+{
+    const ImageBuf src = picture(100, 90);
+    const ImageBuf whole = iba::paint(src);
+    ImageBuf dst(src.spec());
+    OIIO::ImageBufAlgo::zero(dst);
+    ASSERT_TRUE(iba::paint(dst, src, {}, ROI(20, 60, 30, 70, 0, 1, 0, 3)));
+    EXPECT_EQ(dst.getchannel(40, 50, 0, 1), whole.getchannel(40, 50, 0, 1));
+    EXPECT_EQ(dst.getchannel(19, 50, 0, 1), 0.0f);
+    EXPECT_EQ(dst.getchannel(40, 50, 0, 3), 0.0f);
+}
+
+TEST(paint, takes_brushes_canvases_and_maps_from_files)
+{
+    const ImageBuf src = picture(80, 60), small = picture(20, 10);
+    ASSERT_TRUE(small.write("small.exr"));
+    pimg::PaintOptions options;
+    options.brush = options.canvas = options.detail = "small.exr";
+    options.strokes = "strokes.json";
+    ImageBuf result = iba::paint(src, options);
+    EXPECT_FALSE(result.has_error()) << result.geterror();
+    std::ifstream json("strokes.json");
+    std::string first;
+    std::getline(json, first);
+    EXPECT_EQ(first.substr(0, 27), "{\"width\": 80, \"height\": 60,");
+    options.brush = "bristle";
+    options.canvas = "0.9,0.8,0.7";
+    options.opacity = 0.0f;
+    result = iba::paint(src, options);
+    EXPECT_EQ(result.getchannel(3, 3, 0, 1), 0.8f);
+}
+
+TEST(paint, half_stays_finite)
+{
+    ImageBuf src = picture(60, 44, OIIO::TypeDesc::HALF, 3);
+    for (ImageBuf::Iterator<float> p(src); !p.done(); ++p)
+        for (int c = 0; c < 3; ++c)
+            p[c] = p[c] * 40000.0f < 60000.0f ? p[c] * 40000.0f : 65504.0f;
+    pimg::PaintOptions options;
+    options.impasto = 1.0f;
+    for (float v : samples(iba::paint(src, options)))
+        ASSERT_TRUE(std::isfinite(v));
+}
+
+TEST(paint, covers_a_foreign_canvas)
+{
+    const ImageBuf src = picture(160, 120, OIIO::TypeDesc::FLOAT, 3);
+    for (const char* brush : { "round", "flat", "bristle", "knife" }) {
+        pimg::PaintOptions options;
+        options.brush = brush;
+        options.canvas = "100";
+        const ImageBuf result = iba::paint(src, options);
+        ASSERT_FALSE(result.has_error()) << result.geterror();
+        for (float v : samples(result))
+            ASSERT_LT(v, 25.0f) << brush;
+    }
+}
+
+TEST(paint, says_what_is_wrong)
+{
+    const ImageBuf src = picture(30, 20);
+    const auto message = [&](auto&& change) {
+        pimg::PaintOptions options;
+        change(options);
+        return iba::paint(src, options).geterror();
+    };
+    EXPECT_NE(message([](auto& o) { o.brush = "broom"; }).find("round|flat|bristle|knife"), std::string::npos);
+    EXPECT_NE(message([](auto& o) { o.canvas = "no/such.png"; }).find("canvas: expected"), std::string::npos);
+    EXPECT_NE(message([](auto& o) { o.detail = "no/such.png"; }).find("detail: "), std::string::npos);
+    EXPECT_NE(message([](auto& o) { o.strokes = "a.pdf"; }).find("FILE.svg or FILE.json"), std::string::npos);
+    EXPECT_NE(message([](auto& o) { o.strokes = "no/such/folder/a.svg"; }).find("cannot write"), std::string::npos);
+    EXPECT_NE(message([](auto& o) { o.min = 50; }).find("max: 32 is below min, 50"), std::string::npos);
+    EXPECT_NE(message([](auto& o) { o.opacity = 2; }).find("opacity"), std::string::npos);
+}
+
+TEST(painting, works_on_odd_pictures)
+{
+    for (const auto& [width, height] : { std::pair { 1, 1 }, { 1, 9 }, { 7, 1 }, { 2, 2 }, { 40, 30 } })
+        for (const int channels : { 1, 3, 4 })
+            for (const OIIO::TypeDesc type : { OIIO::TypeDesc::UINT8, OIIO::TypeDesc::FLOAT }) {
+                ImageBuf src = picture(width, height, type, channels);
+                src.set_origin(-5, 11);
+                if (type == OIIO::TypeDesc::FLOAT)
+                    src.setpixel(-5, 11, 0, std::vector<float>(4, std::numeric_limits<float>::infinity()).data(),
+                                 channels);
+                for (const ImageBuf& result : { iba::paint(src), iba::mosaic(src), iba::ink(src) }) {
+                    ASSERT_FALSE(result.has_error()) << result.geterror();
+                    EXPECT_EQ(result.roi(), src.roi());
+                    for (int c = 0; c < std::min(channels, 3); ++c)
+                        for (float v : samples(result, c))
+                            ASSERT_TRUE(std::isfinite(v)) << width << " x " << height << ", channel " << c;
+                }
+            }
+}
+
+TEST(mosaic, one_tile_colour_between_joints)
+{
+    const ImageBuf src = picture(120, 90);
+    pimg::MosaicOptions options;
+    options.tiles = 100;
+    options.color = "9";
+    options.bevel = 0;
+    const ImageBuf result = iba::mosaic(src, options);
+    ASSERT_FALSE(result.has_error()) << result.geterror();
+    EXPECT_EQ(samples(src, 3), samples(result, 3));
+    std::size_t joints = 0;
+    for (float v : samples(result, 0))
+        joints += v > 5.0f;
+    EXPECT_GT(joints, 300u);
+    options.color = "mauve";
+    EXPECT_NE(iba::mosaic(src, options).geterror().find("color: \"mauve\""), std::string::npos);
+}
+
+TEST(ink, is_black_on_white_and_exports_lines)
+{
+    const ImageBuf src = picture(120, 90);
+    pimg::InkOptions options;
+    options.strokes = "lines.svg";
+    const ImageBuf result = iba::ink(src, options);
+    ASSERT_FALSE(result.has_error()) << result.geterror();
+    float least = 1, most = 0;
+    for (float v : samples(result, 1)) {
+        least = std::min(least, v);
+        most = std::max(most, v);
+    }
+    EXPECT_GE(least, 0.0f);
+    EXPECT_LT(least, 0.01f);
+    EXPECT_EQ(most, 1.0f);
+    std::ifstream svg("lines.svg");
+    std::string first;
+    std::getline(svg, first);
+    EXPECT_EQ(first.substr(0, 4), "<svg");
+}
+
+}  // namespace
