@@ -53,6 +53,46 @@ bool parse_switch(const std::string& key, const std::string& value, bool& on, st
 
 // ---- filters ----------------------------------------------------------------------------------------------------
 
+/// Whether a filter's result is a mask of one channel; its name, or "".
+template<class Options>
+const char* mask_name(const Options&)
+{
+    return "";
+}
+const char* mask_name(const SegmentOptions& options)
+{
+    return options.output == "labels" ? "label" : options.output == "boundaries" ? "boundary" : "";
+}
+
+/// Opening a file to read must not write another.
+template<class Options>
+bool only_reads(const Options&, std::string&)
+{
+    return true;
+}
+bool only_reads(const SegmentOptions& options, std::string& error)
+{
+    error = options.stats.empty() ? "" : "stats: pimgtool --segment writes it, reading a file cannot";
+    return error.empty();
+}
+bool only_reads(const PaintOptions& options, std::string& error)
+{
+    error = options.strokes.empty() ? "" : "strokes: pimgtool --paint writes them, reading a file cannot";
+    return error.empty();
+}
+
+/// Readers are asked for floating-point numbers, which OpenImageIO would scale to 0..1: labels are made floats as they are.
+void labels_to_float(ImageBuf& labels)
+{
+    ImageSpec spec = labels.spec();
+    spec.set_format(OIIO::TypeFloat);
+    ImageBuf result(spec);
+    const auto* from = static_cast<const std::uint32_t*>(labels.localpixels());
+    auto* to = static_cast<float*>(result.localpixels());
+    std::copy(from, from + spec.image_pixels(), to);
+    labels = std::move(result);
+}
+
 /// What the value given to a filter's own key does; false, without an error, when it turns the filter off.
 template<class Options>
 using Start = bool (*)(Options&, const std::string& key, const std::string& value, std::string& error);
@@ -64,8 +104,11 @@ template<class Options>
 class FilterOf final : public ReadFilter {
 public:
     FilterOf(std::string key, Function<Options> function, Start<Options> first)
-        : m_key(std::move(key)), m_function(function), m_start(first)
-    {}
+        : m_key(std::move(key)),
+          m_function(function),
+          m_start(first)
+    {
+    }
     bool set(const std::string& key, const std::string& value, bool& known, std::string& error) override
     {
         return set_if_known(m_options, key, value, known, error);
@@ -76,11 +119,16 @@ public:
     }
     bool check(std::string& error) const override
     {
-        return check_options(m_options, error);
+        return check_options(m_options, error) && only_reads(m_options, error);
     }
+    std::string mask() const override { return mask_name(m_options); }
     bool run(ImageBuf& dst, const ProgressiveImage& src, int nthreads) const override
     {
-        return m_function(dst, src, m_options, {}, nthreads);
+        if (!m_function(dst, src, m_options, {}, nthreads))
+            return false;
+        if (dst.spec().format == OIIO::TypeUInt32 && mask() == std::string("label"))
+            labels_to_float(dst);
+        return true;
     }
     std::string keys() const override { return OIIO::Strutil::join(keys_of<Options>(), ", "); }
 
@@ -105,9 +153,11 @@ bool start_level(LevelOptions& options, const std::string&, const std::string& v
     return value.empty() || set_option(options, "splits", value, error);
 }
 
-/// feature_lowpass=SPLITS, or a share of them below 1
-bool start_lowpass(FeatureLowpassOptions& options, const std::string&, const std::string& value, std::string& error)
+/// feature_lowpass=SPLITS, or a share of them below 1; feature_lowpass=on goes by strength or noise
+bool start_lowpass(FeatureLowpassOptions& options, const std::string& key, const std::string& value, std::string& error)
 {
+    if (!value.empty() && !OIIO::Strutil::string_is_float(value))
+        return start_switched(options, key, value, error);
     const bool share = OIIO::Strutil::string_is_float(value) && OIIO::Strutil::stof(value) < 1.0f;
     return set_option(options, share ? "fraction" : "splits", value, error);
 }
@@ -116,6 +166,12 @@ bool start_lowpass(FeatureLowpassOptions& options, const std::string&, const std
 bool start_enhance(DetailEnhanceOptions& options, const std::string&, const std::string& value, std::string& error)
 {
     return set_option(options, "gain", value, error);
+}
+
+/// segment=REGIONS
+bool start_segment(SegmentOptions& options, const std::string&, const std::string& value, std::string& error)
+{
+    return set_option(options, "regions", value, error);
 }
 
 struct FilterRow {
@@ -148,6 +204,9 @@ const std::vector<FilterRow>& filters()
         row<FeatureLowpassOptions, iba::feature_lowpass, start_lowpass, Range::stored>("feature_lowpass", "SPLITS"),
         row<DetailEnhanceOptions, iba::detail_enhance, start_enhance, Range::any>("detail_enhance", "GAIN"),
         row<HdrCompressOptions, iba::hdr_compress, start_switched, Range::light>("hdr_compress", "1"),
+        row<SegmentOptions, iba::segment, start_segment, Range::stored>("segment", "REGIONS"),
+        row<PaintOptions, iba::paint, start_switched, Range::stored>("paint", "1"),
+        row<MosaicOptions, iba::mosaic, start_switched, Range::stored>("mosaic", "1"),
     };
     return rows;
 }
@@ -167,7 +226,7 @@ std::string known_keys()
     for (const FilterRow& row : filters())
         keys += format("{}={} ({}), ", row.key, row.value, row.make()->keys());
     return keys + OIIO::Strutil::join(keys_of<BuildOptions>(), ", ") + ", "
-           + OIIO::Strutil::join(keys_of<ReadOptions>(), ", ");
+        + OIIO::Strutil::join(keys_of<ReadOptions>(), ", ");
 }
 
 }  // namespace
@@ -265,7 +324,13 @@ bool ReadRequest::change_spec(ImageSpec& spec, std::string& error) const
             return false;
         declare_space(spec, display ? "sRGB" : colour.linear_name());
     }
-    if (m_filter->floating) {
+    const std::string mask = m_filter->mask();
+    if (!mask.empty()) {
+        spec.nchannels = 1;
+        spec.channelnames = { mask };
+        spec.alpha_channel = spec.z_channel = -1;
+    }
+    if (m_filter->floating || !mask.empty()) {
         spec.set_format(OIIO::TypeFloat);
         spec.channelformats.clear();
         spec.erase_attribute("oiio:BitsPerSample");
@@ -284,7 +349,8 @@ bool ReadRequest::run(ImageBuf& dst, const ProgressiveImage& src, int nthreads) 
 
 }  // namespace io
 
-template<> const std::vector<Option<io::ReadOptions>>& option_table<io::ReadOptions>()
+template<>
+const std::vector<Option<io::ReadOptions>>& option_table<io::ReadOptions>()
 {
     using R = io::ReadOptions;
     static const std::vector<Option<R>> table = {

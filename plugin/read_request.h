@@ -34,6 +34,8 @@ public:
     virtual bool check(std::string& error) const = 0;
     virtual bool run(OIIO::ImageBuf& dst, const ProgressiveImage& src, int nthreads) const = 0;
     virtual std::string keys() const = 0;
+    /// The name of the result's only channel; "": the channels are those of the file.
+    virtual std::string mask() const = 0;
     bool floating = false;  ///< results may leave the range of the file's samples
     bool light = false;     ///< results are linear light, whatever the file's samples are
 };
@@ -68,6 +70,7 @@ private:
 
 }  // namespace io
 
-template<> const std::vector<Option<io::ReadOptions>>& option_table<io::ReadOptions>();
+template<>
+const std::vector<Option<io::ReadOptions>>& option_table<io::ReadOptions>();
 
 }  // namespace pimg

@@ -19,9 +19,13 @@ FILTERS = (
     "wireframe=1&faces=500",
     "feature_lowpass=100",
     "feature_lowpass=0.1",
+    "feature_lowpass=on&strength=0.05",
     "detail_enhance=3&from=0.2",
     "hdr_compress=1",
     "hdr_compress=1&s0=0.2&beta=5&display=1",
+    "segment=30&output=mean",
+    "paint=1&min=4&max=12",
+    "mosaic=1&tiles=100",
 )
 
 
@@ -62,6 +66,14 @@ class Keys(plugin_files.PluginTest):
         for hints in (config(nonsense=1), config(beta=3.0), config(hdr_compress=0)):
             self.assertTrue(np.array_equal(read("a.pimg", config=hints), plain))
 
+    def test_segment_gives_labels_as_they_are(self):
+        labels = read("a.pimg?segment=30")
+        self.assertEqual(labels.shape, (60, 90, 1))
+        self.assertEqual(sorted(np.unique(labels)), list(range(30)))
+        self.ok("oiiotool", "a.pimg?segment=30", "-d", "float", "-o", "labels.exr")
+        self.assertTrue(np.array_equal(read("labels.exr"), labels))
+        self.assertEqual(set(np.unique(read("a.pimg?segment=30&output=boundaries"))), {0.0, 1.0})
+
     def test_wrong_queries_say_what_is_known(self):
         for query, says in (
             ("lowpas=3", ["lowpas", "feature_lowpass", "hdr_compress", "s0", "mip", "guide"]),
@@ -71,6 +83,7 @@ class Keys(plugin_files.PluginTest):
             ("hdr_compress=1&s0=7", ["s0", "7"]),
             ("hdr_compress=1&level=3", ["level and hdr_compress", "one filter"]),
             ("feature_lowpass=", ["splits"]),
+            ("segment=30&stats=a.csv", ["stats", "pimgtool"]),
             ("faces=10&vertices=10", ["faces"]),
         ):
             self.fails("iinfo", "a.pimg?" + query, says=says)
