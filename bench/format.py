@@ -14,7 +14,7 @@ import zlib
 
 if len(sys.argv) < 3:
     sys.exit(__doc__)
-os.environ["OIIO_LIBRARY_PATH"] = os.environ["OPENIMAGEIO_PLUGIN_PATH"] = sys.argv[1]
+os.environ["OIIO_LIBRARY_PATH"] = os.environ["OPENIMAGEIO_PLUGIN_PATH"] = os.path.abspath(sys.argv[1])
 
 import numpy as np  # noqa: E402
 import OpenImageIO as oiio  # noqa: E402

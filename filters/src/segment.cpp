@@ -31,10 +31,6 @@ bool find_regions(ProgressiveImage::Data& data, const SegmentOptions& options, c
 {
     const std::size_t pixels = data.spec.image_pixels();
     const bool by_threshold = options.threshold >= 0.0f;
-    if (by_threshold && options.regions >= 0) {
-        error = "regions and threshold: expected one of them";
-        return false;
-    }
     if (options.regions > 0 && std::size_t(options.regions) > pixels) {
         error = OIIO::Strutil::fmt::format("regions={}: expected at most {}, the picture's pixels", options.regions,
                                            pixels);
