@@ -3,7 +3,9 @@
 // themselves for programs that link them in.
 #pragma once
 
+#include <exception>
 #include <memory>
+#include <new>
 #include <string>
 
 #include <OpenImageIO/filesystem.h>
@@ -47,6 +49,20 @@ std::string file_of(const std::string& name);
 /// A writer that stores this hierarchy of the picture instead of building one; nullptr: an ordinary one.
 std::unique_ptr<OIIO::ImageOutput> make_output(const Hierarchy* hierarchy);
 std::unique_ptr<OIIO::ImageInput> make_input();
+
+/// Runs `body` for a reader or writer of the file `name`: no exception passes OpenImageIO's virtual functions.
+template<class File, class Body>
+bool guarded(const File& file, const std::string& name, Body&& body)
+{
+    try {
+        return body();
+    } catch (const std::bad_alloc&) {
+        file.errorfmt("pimg: not enough memory for {}", name);
+    } catch (const std::exception& exception) {
+        file.errorfmt("pimg: {}", exception.what());
+    }
+    return false;
+}
 
 /// Opens a file within OpenImageIO's limits:channels and limits:imagesize_MB. The proxy must outlive the decoder.
 Status open_decoder(OIIO::Filesystem::IOProxy* proxy, Decoder& decoder);

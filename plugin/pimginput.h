@@ -63,7 +63,10 @@ public:
     bool read_native_tile(int subimage, int miplevel, int x, int y, int z, void* data) override;
 
 private:
-    template<class Body> bool guarded(Body&& body);
+    template<class Body> bool guarded(Body&& body)
+    {
+        return io::guarded(*this, m_name, body);
+    }
     bool fail(const std::string& message);
     bool has_level(int subimage, int miplevel);
     bool announce_levels(std::string& error);
@@ -92,20 +95,6 @@ private:
     enum class Whole { unknown, yes, no } m_whole = Whole::unknown;
     std::string m_failure;                                      ///< of making a level; it would fail again
 };
-
-/// No exception passes OpenImageIO's virtual functions.
-template<class Body>
-bool PimgInput::guarded(Body&& body)
-{
-    try {
-        return body();
-    } catch (const std::bad_alloc&) {
-        errorfmt("pimg: not enough memory for {}", m_name);
-    } catch (const std::exception& exception) {
-        errorfmt("pimg: {}", exception.what());
-    }
-    return false;
-}
 
 }  // namespace io
 }  // namespace pimg

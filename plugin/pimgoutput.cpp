@@ -136,7 +136,10 @@ private:
     bool finish();
     bool build_hierarchy(ProgressiveImage& progressive);
     bool store(const std::vector<std::uint8_t>& bytes);
-    template<class Body> bool guarded(Body&& body);
+    template<class Body> bool guarded(Body&& body)
+    {
+        return io::guarded(*this, m_name, body);
+    }
 
     const Hierarchy* m_given;
     std::string m_name;
@@ -150,20 +153,6 @@ private:
     bool m_open = false;
     std::vector<unsigned char> m_scratch;
 };
-
-/// No exception passes OpenImageIO's virtual functions.
-template<class Body>
-bool PimgOutput::guarded(Body&& body)
-{
-    try {
-        return body();
-    } catch (const std::bad_alloc&) {
-        errorfmt("pimg: not enough memory for {}", m_name);
-    } catch (const std::exception& exception) {
-        errorfmt("pimg: {}", exception.what());
-    }
-    return false;
-}
 
 int PimgOutput::supports(OIIO::string_view feature) const
 {
