@@ -8,6 +8,7 @@
 #include <pimg/colour.h>
 #include <pimg/display.h>
 #include <pimg/imagebufalgo.h>
+#include <pimg/labels.h>
 
 #include "pimg_pvt.h"
 
@@ -59,9 +60,17 @@ const char* mask_name(const Options&)
 {
     return "";
 }
+const char* partition_mask(const std::string& output)
+{
+    return output == "labels" ? "label" : output == "boundaries" ? "boundary" : "";
+}
 const char* mask_name(const SegmentOptions& options)
 {
-    return options.output == "labels" ? "label" : options.output == "boundaries" ? "boundary" : "";
+    return partition_mask(options.output);
+}
+const char* mask_name(const DualPiecesOptions& options)
+{
+    return partition_mask(options.output);
 }
 
 /// Opening a file to read must not write another.
@@ -82,15 +91,15 @@ bool only_reads(const PaintOptions& options, std::string& error)
 }
 
 /// Readers are asked for floating-point numbers, which OpenImageIO would scale to 0..1: labels are made floats as they are.
-void labels_to_float(ImageBuf& labels)
+bool labels_to_float(ImageBuf& labels)
 {
     ImageSpec spec = labels.spec();
     spec.set_format(OIIO::TypeFloat);
     ImageBuf result(spec);
-    const auto* from = static_cast<const std::uint32_t*>(labels.localpixels());
-    auto* to = static_cast<float*>(result.localpixels());
-    std::copy(from, from + spec.image_pixels(), to);
+    const bool fit = write_labels(result, result.roi(), static_cast<const Index*>(labels.localpixels()),
+                                  std::size_t(spec.width), Index(spec.get_int_attribute(kLabelCount)));
     labels = std::move(result);
+    return fit;
 }
 
 /// What the value given to a filter's own key does; false, without an error, when it turns the filter off.
@@ -124,11 +133,7 @@ public:
     std::string mask() const override { return mask_name(m_options); }
     bool run(ImageBuf& dst, const ProgressiveImage& src, int nthreads) const override
     {
-        if (!m_function(dst, src, m_options, {}, nthreads))
-            return false;
-        if (dst.spec().format == OIIO::TypeUInt32 && mask() == std::string("label"))
-            labels_to_float(dst);
-        return true;
+        return m_function(dst, src, m_options, {}, nthreads) && (mask() != "label" || labels_to_float(dst));
     }
     std::string keys() const override { return OIIO::Strutil::join(keys_of<Options>(), ", "); }
 
@@ -201,6 +206,7 @@ const std::vector<FilterRow>& filters()
     static const std::vector<FilterRow> rows = {
         row<LevelOptions, iba::level_image, start_level, Range::stored>("level", "SPLITS"),
         row<WireframeOptions, iba::wireframe, start_switched, Range::stored>("wireframe", "1"),
+        row<DualPiecesOptions, iba::dual_pieces, start_switched, Range::stored>("dual_pieces", "1"),
         row<FeatureLowpassOptions, iba::feature_lowpass, start_lowpass, Range::stored>("feature_lowpass", "SPLITS"),
         row<DetailEnhanceOptions, iba::detail_enhance, start_enhance, Range::any>("detail_enhance", "GAIN"),
         row<HdrCompressOptions, iba::hdr_compress, start_switched, Range::light>("hdr_compress", "1"),

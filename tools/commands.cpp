@@ -374,6 +374,9 @@ CommandGroup filters_group()
                  filter<pimg::HdrCompressOptions>("--hdr-compress",
                                                   "fits high dynamic range to a display: linear light, white at 1",
                                                   iba::hdr_compress, Meaning::display_linear),
+                 filter<pimg::DualPiecesOptions>(
+                     "--dual-pieces", "pixels that each vertex of a level stands for, chosen as for --level",
+                     iba::dual_pieces),
                  filter<pimg::SegmentOptions>("--segment", "merges what looks alike into connected regions",
                                               iba::segment),
                  filter<pimg::PaintOptions>("--paint", "paints with brush strokes that follow the picture's forms",

@@ -10,10 +10,11 @@
 #include <unistd.h>
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/half.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
+
+#include <pimg/labels.h>
 
 #include "colour.h"
 #include "pimg_file.h"
@@ -147,27 +148,9 @@ bool write_pixels(ImageOutput& out, const ImageBuf& pixels, const std::string& f
     return written && closed;
 }
 
-/// Largest label of a picture of them, and the largest that a pixel type holds exactly.
-double largest_label(const ImageBuf& labels)
-{
-    double most = 0.0;
-    for (ImageBuf::ConstIterator<std::uint32_t, std::uint32_t> it(labels); !it.done(); ++it)
-        most = std::max(most, double(std::uint32_t(it[0])));
-    return most;
-}
-
-double capacity(TypeDesc type)
-{
-    switch (type.basetype) {
-    case TypeDesc::HALF: return 2048.0;
-    case TypeDesc::FLOAT: return 16777216.0;
-    default: return type.is_floating_point() ? 1e15 : std::exp2(8.0 * double(type.size()) - (type.is_signed() ? 1 : 0)) - 1;
-    }
-}
-
 /// The first of the types for labels that the format stores as such and that holds them; else the one that holds most. OpenEXR
 /// has integers, but most readers turn pixels into floats that end at one; so there it is float.
-bool find_label_type(ImageOutput& out, const std::string& scratch, double largest, TypeDesc& type, std::string& error)
+bool find_label_type(ImageOutput& out, const std::string& scratch, pimg::Index count, TypeDesc& type, std::string& error)
 {
     double most = 0.0;
     for (const TypeDesc wanted : { TypeDesc::UINT32, TypeDesc::UINT16, TypeDesc::FLOAT, TypeDesc::UINT8 }) {
@@ -176,10 +159,10 @@ bool find_label_type(ImageOutput& out, const std::string& scratch, double larges
         TypeDesc stored = wanted;
         if (!stored_type(out, scratch, 1, stored, error))
             return false;
-        if (stored == wanted && capacity(stored) > most) {
-            most = capacity(stored);
+        if (stored == wanted && pimg::largest_label(stored) > most) {
+            most = pimg::largest_label(stored);
             type = stored;
-            if (most >= largest)
+            if (most >= double(count) - 1.0)
                 return true;
         }
     }
@@ -190,36 +173,17 @@ bool find_label_type(ImageOutput& out, const std::string& scratch, double larges
 bool convert_labels(const ImageBuf& labels, ImageOutput& out, const std::string& scratch, TypeDesc& type,
                     ImageBuf& result, std::string& error)
 {
-    const double largest = largest_label(labels);
-    if (type == TypeDesc::UNKNOWN && !find_label_type(out, scratch, largest, type, error))
+    const auto count = pimg::Index(labels.spec().get_int_attribute(pimg::kLabelCount));
+    if (type == TypeDesc::UNKNOWN && !find_label_type(out, scratch, count, type, error))
         return false;
-    if (largest > capacity(type)) {
-        error = format("{} regions: expected at most {} in pixels of type {}", largest + 1,
-                       capacity(type) + 1, type);
-        return false;
-    }
-    const std::size_t pixels = std::size_t(labels.spec().image_pixels());
-    std::vector<std::uint32_t> numbers(pixels);
-    labels.get_pixels(labels.roi(), TypeDesc::UINT32, numbers.data());
     ImageSpec spec = labels.spec();
     spec.set_format(type);
     result.reset(spec);
-    // Integers keep their value in the next larger range only by hand: OpenImageIO would scale it.
-    for (std::size_t i = 0; i < pixels; ++i) {
-        void* to = static_cast<char*>(result.localpixels()) + i * type.size();
-        const std::uint32_t n = numbers[i];
-        switch (type.basetype) {
-        case TypeDesc::HALF: *static_cast<half*>(to) = half(float(n)); break;
-        case TypeDesc::FLOAT: *static_cast<float*>(to) = float(n); break;
-        case TypeDesc::DOUBLE: *static_cast<double*>(to) = double(n); break;
-        case TypeDesc::UINT8:
-        case TypeDesc::INT8: *static_cast<std::uint8_t*>(to) = std::uint8_t(n); break;
-        case TypeDesc::UINT16:
-        case TypeDesc::INT16: *static_cast<std::uint16_t*>(to) = std::uint16_t(n); break;
-        default: *static_cast<std::uint32_t*>(to) = n; break;
-        }
-    }
-    return true;
+    if (pimg::write_labels(result, result.roi(), static_cast<const pimg::Index*>(labels.localpixels()),
+                           std::size_t(spec.width), count))
+        return true;
+    error = result.geterror();
+    return false;
 }
 
 }  // namespace

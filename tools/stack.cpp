@@ -6,6 +6,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/strutil.h>
+#include <pimg/labels.h>
 
 #include "colour.h"
 #include "progress_bar.h"
@@ -206,7 +207,7 @@ bool Session::filter(const Filter& run, Meaning meaning)
     picture.hierarchy->options.incolorspace.clear();
     if (meaning == Meaning::display_linear)
         picture.linear_light = true;
-    picture.labels = result->spec().format == OIIO::TypeUInt32 && result->spec().find_attribute("pimg:regions");
+    picture.labels = result->spec().format == OIIO::TypeUInt32 && result->spec().find_attribute(pimg::kLabelCount);
     say(format("{}: filtered, {:.3f} s", picture.name, timer.seconds()));
     top() = picture;
     return true;

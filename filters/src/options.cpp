@@ -218,6 +218,9 @@ void add_strength_options(std::vector<Option<T>>& table)
         { &T::log, { "log", 0, 0, "", "", "work on the channels' logarithms: for scene-referred pictures" } });
 }
 
+constexpr OptionRule kPartitionOutput = { "output", 0, 0, "", "labels|mean|boundaries",
+                                          "numbers from 0, mean colours, or 1 at the borders" };
+
 /// The level options of T, a struct derived from LevelOptions.
 template<class T>
 std::vector<Option<T>> level_table()
@@ -248,6 +251,18 @@ const std::vector<Option<WireframeOptions>>& option_table<WireframeOptions>()
         std::vector<Option<T>> all = level_table<T>();
         all.push_back({ &T::overlay, { "overlay", 0, 0, "", "", "draw over the level's picture instead of white" } });
         all.push_back({ &T::line, { "line", 0.1, 100, "pixels", "", "width of the lines" } });
+        return all;
+    }();
+    return table;
+}
+
+template<>
+const std::vector<Option<DualPiecesOptions>>& option_table<DualPiecesOptions>()
+{
+    using T = DualPiecesOptions;
+    static const std::vector<Option<T>> table = [] {
+        std::vector<Option<T>> all = level_table<T>();
+        all.push_back({ &T::output, kPartitionOutput });
         return all;
     }();
     return table;
@@ -299,8 +314,7 @@ const std::vector<Option<SegmentOptions>>& option_table<SegmentOptions>()
         { &T::threshold,
           { "threshold", 0, kAnyFloat, "", "", "cost that every border left exceeds: squared CIELAB units times pixels",
             "number of regions" } },
-        { &T::output,
-          { "output", 0, 0, "", "labels|mean|boundaries", "numbers from 0, mean colours, or 1 at the borders" } },
+        { &T::output, kPartitionOutput },
         { &T::stats, { "stats", 0, 0, "", "", "file for figures of every region: .json or else CSV" } },
     };
     return table;

@@ -74,6 +74,10 @@ class Keys(plugin_files.PluginTest):
         self.assertTrue(np.array_equal(read("labels.exr"), labels))
         self.assertEqual(set(np.unique(read("a.pimg?segment=30&output=boundaries"))), {0.0, 1.0})
 
+    def test_dual_pieces_of_a_level(self):
+        labels = read("a.pimg?dual_pieces=1&vertices=200")
+        self.assertEqual(sorted(np.unique(labels)), list(range(200)))
+
     def test_wrong_queries_say_what_is_known(self):
         for query, says in (
             ("lowpas=3", ["lowpas", "feature_lowpass", "hdr_compress", "s0", "mip", "guide"]),

@@ -18,6 +18,7 @@ FILTERS = (
     "--feature-lowpass:splits=300",
     "--detail-enhance:gain=3:from=0.05",
     "--hdr-compress:s0=0.2:beta=4",
+    "--dual-pieces:fraction=0.1:output=mean",
     "--segment:threshold=50:output=mean",
     "--paint:min=2:impasto=0.5",
     "--mosaic:tiles=150",
@@ -117,6 +118,15 @@ class Operations(pictures.ToolTest):
         with open("regions.csv", encoding="utf-8") as file:
             self.assertEqual(len(file.read().splitlines()), 301)
         self.fails("rgb.png", "--segment:regions=300", "-d", "uint8", "-o", "8.png", says="at most 256")
+
+    def test_dual_pieces_are_nested(self):
+        levels = (10, 200, 2000)
+        self.ok("rgb.png", *each_on_a_copy([f"--dual-pieces:splits={level}" for level in levels], "out.tif"))
+        coarse, middle, fine = (read(f"{i}-out.tif", "uint32").flatten() for i in range(len(levels)))
+        for finer, coarser in ((middle, coarse), (fine, middle)):
+            pairs = set(zip(finer, coarser))
+            self.assertEqual(len(pairs), finer.max() + 1)
+        self.assertEqual(fine.max() - middle.max(), 1800)
 
     def test_painting_and_drawing_export_their_strokes(self):
         self.ok("rgb.png", "--dup", "--paint:strokes=paint.svg", "--pop", "--dup", "--ink:strokes=ink.svg", "--pop",

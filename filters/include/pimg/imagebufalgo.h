@@ -97,6 +97,19 @@ bool wireframe(ImageBuf& dst, const ProgressiveImage& src, const WireframeOption
 ImageBuf wireframe(const ImageBuf& src, const WireframeOptions& options = {}, ROI roi = {}, int nthreads = 0);
 ImageBuf wireframe(const ProgressiveImage& src, const WireframeOptions& options = {}, ROI roi = {}, int nthreads = 0);
 
+/// Partitions the picture into the dual pieces of one level (paper, section 4.2): the pixels whose vertices were merged into each
+/// vertex of M_i. A piece is a union of pieces at every finer level, where one of them keeps its number.
+///   labels      one channel of vertex numbers from 0, not scaled to any range. dst: uint32.
+///   mean, boundaries  as for segment().
+/// Levels count as in level_image(); the finest has a piece for every pixel.
+bool dual_pieces(ImageBuf& dst, const ImageBuf& src, const DualPiecesOptions& options = {}, ROI roi = {},
+                 int nthreads = 0);
+bool dual_pieces(ImageBuf& dst, const ProgressiveImage& src, const DualPiecesOptions& options = {}, ROI roi = {},
+                 int nthreads = 0);
+ImageBuf dual_pieces(const ImageBuf& src, const DualPiecesOptions& options = {}, ROI roi = {}, int nthreads = 0);
+ImageBuf dual_pieces(const ProgressiveImage& src, const DualPiecesOptions& options = {}, ROI roi = {},
+                     int nthreads = 0);
+
 /// Partitions the picture into connected regions that look alike, by merging its pieces, most alike first (paper, section 4.2). Colours
 /// are compared in CIELAB: of linear light, with the median luminance at 0.18 if the picture is
 /// scene-linear and so has no white. The merges are kept with the ProgressiveImage: other numbers

@@ -93,6 +93,11 @@ struct WireframeOptions : LevelOptions {
     float line = 1.0f;     ///< width of the lines in pixels
 };
 
+/// Dual pieces (paper, section 4.2) of a level.
+struct DualPiecesOptions : LevelOptions {
+    std::string output = "labels";  ///< labels, mean or boundaries
+};
+
 /// How much is detail, for the filters that smooth by strength. At most one of strength and noise may be set.
 struct StrengthOptions {
     float strength = -1.0f;  ///< contrast smoothed away, in units of the samples, or in stops with log
@@ -186,6 +191,8 @@ template<>
 const std::vector<Option<LevelOptions>>& option_table<LevelOptions>();
 template<>
 const std::vector<Option<WireframeOptions>>& option_table<WireframeOptions>();
+template<>
+const std::vector<Option<DualPiecesOptions>>& option_table<DualPiecesOptions>();
 template<>
 const std::vector<Option<FeatureLowpassOptions>>& option_table<FeatureLowpassOptions>();
 template<>
