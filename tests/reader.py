@@ -439,14 +439,15 @@ def read_plane(r, width, height, mesh, before):
             if y == 0:
                 w = d(x - 1, 0) if x else 0
                 n_ = nw = ne = w
-                ew = sizes[0][x - 1] if x else 0
-                en = ew
+                busy = 4 * sizes[0][x - 2] if x > 1 else 0
             else:
-                n_ = d(x, y - 1)
-                en = sizes[y - 1][x]
-                ne = d(x + 1, y - 1) if x + 1 < width else n_
-                w, nw, ew = (d(x - 1, y), d(x - 1, y - 1), sizes[y][x - 1]) if x else (n_, n_, en)
-            busy = abs(w - nw) + abs(n_ - nw) + abs(n_ - ne) + 2 * (ew + en) + (2 * before[y][x] if before else 0)
+                right = min(x + 1, width - 1)
+                n_, ne = d(x, y - 1), d(right, y - 1)
+                w, nw = (d(x - 1, y), d(x - 1, y - 1)) if x else (n_, n_)
+                ww, eww = (d(x - 2, y), sizes[y][x - 2]) if x > 1 else (nw, sizes[y - 1][0])
+                busy = abs(ww - nw) + abs(n_ - nw) + abs(n_ - ne) + eww + 2 * sizes[y - 1][x] + sizes[y - 1][right]
+            if before:
+                busy += 2 * before[y][x]
             if method == 0:
                 v = symbols.next(class_of(min(0xffffffff, busy)))
             else:

@@ -12,6 +12,8 @@
 namespace pimg {
 
 /// Reversible transforms of the first three channels.
+constexpr std::size_t kTransformChannels = 3;  ///< the first so many are transformed together
+
 enum class Transform : std::uint8_t {
     none = 0,
     ycocg = 1,  ///< YCoCg-R (Malvar & Sullivan 2003)

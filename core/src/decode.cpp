@@ -124,7 +124,7 @@ struct Decoder::File {
                 std::uint32_t height, bool exact, const std::vector<Plane>& planes) const;
     std::size_t group_size(std::size_t first) const
     {
-        return std::min<std::size_t>(TilePlaneReader::kLanes, desc.channels.size() - first);
+        return std::min<std::size_t>(kTransformChannels, desc.channels.size() - first);
     }
 };
 
@@ -340,17 +340,16 @@ Status Decoder::File::read_group(ByteReader& in, const SamplePoints& points, std
         return Status::failure("pimg: tile " + std::to_string(row * columns() + column) + " is damaged");
     };
     const std::size_t count = group.values.size();
-    TilePlaneReader readers[TilePlaneReader::kLanes];
-    TilePlane planes[TilePlaneReader::kLanes];
     group.mesh.resize(count);
     group.sizes.resize(count);
     for (std::size_t k = 0; k < count; ++k) {
-        TilePlane& plane = planes[k];
+        TilePlaneReader reader;
+        TilePlane plane;
         plane.width = int(points.xs.size());
         plane.height = int(points.ys.size());
-        if (!readers[k].open(in, plane.pixels()))
+        if (!reader.open(in, plane.pixels()))
             return bad();
-        if (readers[k].uses_gouraud()) {
+        if (reader.uses_gouraud()) {
             const Status status = show(points, column, row, first + k, group.mesh[k]);
             if (!status)
                 return status;
@@ -361,9 +360,9 @@ Status Decoder::File::read_group(ByteReader& in, const SamplePoints& points, std
         plane.values = group.values[k].data();
         plane.sizes = group.sizes[k].data();
         plane.guide = k > 0 ? group.sizes[k - 1].data() : first > 0 ? group.before.data() : nullptr;
+        if (!reader.read(plane))
+            return bad();
     }
-    if (!TilePlaneReader::read(readers, planes, int(count)))
-        return bad();
     group.before.swap(group.sizes[count - 1]);
     return {};
 }

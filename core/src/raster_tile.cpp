@@ -19,8 +19,8 @@ std::int64_t size(std::int64_t v)
 /// W + N - NW kept between W and N: follows edges in either direction (LOCO-I, Weinberger et al. 2000).
 std::int64_t median(std::int64_t w, std::int64_t n, std::int64_t nw)
 {
-    const std::int64_t low = std::min(w, n), high = std::max(w, n);
-    return std::clamp(w + n - nw, low, high);
+    const std::int64_t under = (w - n) & ((w - n) >> 63);  // which is less cannot be predicted: so in arithmetic
+    return std::max(n + under, std::min(w + n - nw, w - under));
 }
 
 template<Shape shape>
@@ -36,13 +36,13 @@ std::int64_t predict(std::int64_t w, std::int64_t n, std::int64_t nw, std::int64
         return (6 * w + 5 * n - 4 * nw + ne + 4) >> 3;
 }
 
-/// Visits the samples in row order with the prediction and the class of the residual to come.
+/// Visits the samples in row order with the prediction and the class of the residual to come. The class does not depend on
+/// the sample to the left: so a processor finds it while that one is still being decoded.
 /// visit(at, prediction, class) sets values[at] and returns the size of the residual.
 template<Shape shape, bool gouraud, class Visit>
 void walk(const TilePlane& t, Visit&& visit)
 {
-    const int width = t.width, height = t.height;
-    const std::size_t up = std::size_t(width);
+    const std::size_t up = std::size_t(t.width);
     const std::int32_t *const values = t.values, *const mesh = t.gouraud;
     const std::uint16_t* const guide = t.guide;
     std::uint16_t* const sizes = t.sizes;
@@ -52,35 +52,40 @@ void walk(const TilePlane& t, Visit&& visit)
         else
             return std::int64_t(values[at]);
     };
-    std::size_t at = 0;
-    for (int y = 0; y < height; ++y) {
-        std::int64_t w = 0, n = 0, nw = 0, ne = 0;
-        std::int64_t size_w = 0;
-        if (y > 0) {
-            n = difference(at - up);
-            w = nw = n;
-            size_w = sizes[at - up];
+    const auto row = [&](std::size_t at, auto is_first) {
+        constexpr bool first = decltype(is_first)::value;
+        std::int64_t w = 0, ww = 0, n = 0, nw = 0, ne = 0, size_w = 0, size_ww = 0;
+        if constexpr (!first) {
+            w = ww = n = nw = difference(at - up);
+            size_w = size_ww = sizes[at - up];
         }
-        for (int x = 0; x < width; ++x, ++at) {
-            std::int64_t size_n = size_w;
-            if (y > 0) {
-                ne = x + 1 < width ? difference(at - up + 1) : n;
-                size_n = sizes[at - up];
-            } else
+        for (const std::size_t end = at + up; at < end; ++at) {
+            std::int64_t busy = 0;
+            if constexpr (first) {
                 n = nw = ne = w;
-            const std::int64_t base = gouraud ? std::int64_t(mesh[at]) : 0;
-            std::int64_t busy = size(w - nw) + size(n - nw) + size(n - ne) + 2 * (size_w + size_n);
+                busy = 4 * size_ww;
+            } else {
+                ne = at + 1 < end ? difference(at - up + 1) : n;
+                busy = size(ww - nw) + size(n - nw) + size(n - ne) + size_ww + 2 * std::int64_t(sizes[at - up])
+                    + sizes[at - up + (at + 1 < end)];
+            }
             if (guide)
                 busy += 2 * std::int64_t(guide[at]);
             const std::uint32_t klass = class_of(std::uint32_t(std::min<std::int64_t>(busy, 0xffffffffll)));
+            const std::int64_t base = gouraud ? std::int64_t(mesh[at]) : 0;
             const std::uint32_t residual_size = visit(at, base + predict<shape>(w, n, nw, ne), klass);
+            size_ww = size_w;
             size_w = std::min<std::uint32_t>(residual_size, 65535);
             sizes[at] = std::uint16_t(size_w);
+            ww = w;
             w = difference(at);
             nw = n;
             n = ne;
         }
-    }
+    };
+    row(0, std::true_type());
+    for (int y = 1; y < t.height; ++y)
+        row(std::size_t(y) * up, std::false_type());
 }
 
 template<class Visit>
@@ -173,85 +178,6 @@ void write_tile_plane(const TilePlane& plane, TilePredictor predictor, Bytes& ou
         put_bytes(out, coded.data(), coded.size());
 }
 
-/// One channel being decoded. What walk() keeps in variables is here for each.
-struct TilePlaneReader::Lane {
-    SymbolCursor cursor;
-    Shape shape;
-    std::int32_t* values;
-    const std::int32_t* mesh;
-    const std::uint16_t* guide;
-    std::uint16_t* sizes;
-    const std::uint8_t* bytes;  ///< of the planar method, or nullptr
-    std::uint32_t planes;
-    std::int64_t w, n, nw, ne, size_w;
-
-    std::int64_t difference(std::size_t at) const { return std::int64_t(values[at]) - (mesh ? mesh[at] : 0); }
-
-    std::uint32_t number(std::size_t at, std::size_t pixels, std::uint32_t klass)
-    {
-        if (!bytes)
-            return cursor.next(klass);
-        std::uint32_t v = 0;
-        for (std::uint32_t k = planes; k-- > 0;)
-            v = v << 8 | bytes[k * pixels + at];
-        return v;
-    }
-
-    std::int64_t prediction() const
-    {
-        switch (shape) {
-        case Shape::none: return predict<Shape::none>(w, n, nw, ne);
-        case Shape::left: return predict<Shape::left>(w, n, nw, ne);
-        case Shape::median: return predict<Shape::median>(w, n, nw, ne);
-        case Shape::mean: return predict<Shape::mean>(w, n, nw, ne);
-        }
-        return 0;
-    }
-};
-
-/// The same order of things as in walk(), for several channels at once.
-template<int count>
-void TilePlaneReader::read_lanes(Lane* lanes, const TilePlane& tile)
-{
-    const int width = tile.width, height = tile.height;
-    const std::size_t up = std::size_t(width), pixels = tile.pixels();
-    std::size_t at = 0;
-    for (int y = 0; y < height; ++y) {
-        for (int c = 0; c < count; ++c) {
-            Lane& l = lanes[c];
-            l.w = l.n = l.nw = l.ne = l.size_w = 0;
-            if (y > 0) {
-                l.w = l.n = l.nw = l.difference(at - up);
-                l.size_w = l.sizes[at - up];
-            }
-        }
-        for (int x = 0; x < width; ++x, ++at)
-            for (int c = 0; c < count; ++c) {
-                Lane& l = lanes[c];
-                std::int64_t size_n = l.size_w;
-                if (y > 0) {
-                    l.ne = x + 1 < width ? l.difference(at - up + 1) : l.n;
-                    size_n = l.sizes[at - up];
-                } else
-                    l.n = l.nw = l.ne = l.w;
-                std::int64_t busy
-                    = size(l.w - l.nw) + size(l.n - l.nw) + size(l.n - l.ne) + 2 * (l.size_w + size_n);
-                if (l.guide)
-                    busy += 2 * std::int64_t(l.guide[at]);
-                const std::uint32_t v
-                    = l.number(at, pixels, class_of(std::uint32_t(std::min<std::int64_t>(busy, 0xffffffffll))));
-                const std::int64_t base = l.mesh ? std::int64_t(l.mesh[at]) : 0;
-                const std::int32_t value = restored(v, base + l.prediction());
-                l.values[at] = value;
-                l.size_w = std::min<std::uint32_t>(size_of_folded(v), 65535);
-                l.sizes[at] = std::uint16_t(l.size_w);
-                l.w = std::int64_t(value) - base;
-                l.nw = l.n;
-                l.n = l.ne;
-            }
-    }
-}
-
 bool TilePlaneReader::open(ByteReader& in, std::size_t pixels)
 {
     const std::uint32_t head = in.u8();
@@ -269,29 +195,31 @@ bool TilePlaneReader::open(ByteReader& in, std::size_t pixels)
     return zstd_unpack(in.take(std::size_t(packed)), std::size_t(packed), m_bytes.data(), m_bytes.size());
 }
 
-bool TilePlaneReader::read(TilePlaneReader* readers, const TilePlane* planes, int count)
+bool TilePlaneReader::read(const TilePlane& plane)
 {
-    Lane lanes[kLanes];
-    for (int c = 0; c < count; ++c) {
-        const TilePlaneReader& r = readers[c];
-        const bool gouraud = r.m_predictor.gouraud;
-        if (gouraud && !planes[c].gouraud)
-            return false;
-        lanes[c] = { r.m_symbols.cursor(), r.m_predictor.shape, planes[c].values, gouraud ? planes[c].gouraud : nullptr,
-                     planes[c].guide, planes[c].sizes, r.m_planar ? r.m_bytes.data() : nullptr, r.m_planes,
-                     0, 0, 0, 0, 0 };
+    if (m_predictor.gouraud && !plane.gouraud)
+        return false;
+    const auto each = [&](auto&& number) {
+        walk(plane, m_predictor, [&](std::size_t at, std::int64_t prediction, std::uint32_t klass) {
+            const std::uint32_t v = number(at, klass);
+            plane.values[at] = restored(v, prediction);
+            return size_of_folded(v);
+        });
+    };
+    if (m_planar) {
+        const std::size_t pixels = plane.pixels();
+        each([&](std::size_t at, std::uint32_t) {
+            std::uint32_t v = 0;
+            for (std::uint32_t k = m_planes; k-- > 0;)
+                v = v << 8 | m_bytes[k * pixels + at];
+            return v;
+        });
+        return true;
     }
-    switch (count) {
-    case 1: read_lanes<1>(lanes, planes[0]); break;
-    case 2: read_lanes<2>(lanes, planes[0]); break;
-    default: read_lanes<3>(lanes, planes[0]);
-    }
-    for (int c = 0; c < count; ++c) {
-        readers[c].m_symbols.set_cursor(lanes[c].cursor);
-        if (!readers[c].m_planar && !readers[c].m_symbols.finished())
-            return false;
-    }
-    return true;
+    SymbolCursor cursor = m_symbols.cursor();
+    each([&](std::size_t, std::uint32_t klass) { return cursor.next(klass); });
+    m_symbols.set_cursor(cursor);
+    return m_symbols.finished();
 }
 
 }  // namespace pimg

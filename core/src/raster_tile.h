@@ -36,23 +36,17 @@ void write_tile_plane(const TilePlane& plane, TilePredictor predictor, Bytes& ou
 /// Bits, in 1/256, the residuals would take: an estimate without the coding itself.
 std::uint64_t estimate_tile_plane(const TilePlane& plane, TilePredictor predictor);
 
-/// Reads the channels of a tile, up to kLanes at a time: each waits for its own samples only, so that a processor can work
-/// on several at once.
+/// Reads one channel of a tile.
 class TilePlaneReader {
 public:
-    /// Reads the head of a channel and takes its stream; false when it is damaged. The bytes must stay alive.
+    /// Reads the head and takes the stream; false when it is damaged. The bytes must stay alive.
     bool open(ByteReader& in, std::size_t pixels);
     bool uses_gouraud() const { return m_predictor.gouraud; }
 
-    static constexpr int kLanes = 3;
-    /// Decodes `count` channels; false when one is damaged.
-    static bool read(TilePlaneReader* readers, const TilePlane* planes, int count);
+    /// Decodes the channel; false when it is damaged.
+    bool read(const TilePlane& plane);
 
 private:
-    struct Lane;
-    template<int count>
-    static void read_lanes(Lane* lanes, const TilePlane& shape);
-
     TilePredictor m_predictor;
     bool m_planar = false;
     SymbolReader m_symbols;

@@ -22,10 +22,9 @@ constexpr std::uint32_t kMaxContexts = 24;
 /// Half-octave class of a magnitude: 0 1 2 3 4-5 6-7 8-11 12-15 ... at most 63.
 inline std::uint32_t class_of(std::uint32_t v)
 {
-    if (v < 4)
-        return v;
-    const int n = 31 - __builtin_clz(v);
-    return std::uint32_t(2 * n) + (v >> (n - 1) & 1);
+    // Without branches: classes are hard to predict.
+    const int n = 31 - __builtin_clz(v | 1);
+    return std::uint32_t(2 * n) + std::uint32_t(std::uint64_t(v) << 1 >> n & 1) + std::uint32_t(v == 1);
 }
 
 /// A number is a token and `extra` further bits: numbers under 16 are their own token.
@@ -84,9 +83,8 @@ struct SymbolCursor {
         const std::uint32_t token = table.token[slot];
         const SymbolTable::Range range = table.range[token];
         std::uint32_t y = range.frequency * (x >> kProbabilityBits) + slot - range.start;
-        const bool low = y < kStateLow;
-        const std::uint32_t more = y << 16 | words[word < word_count ? word : word_count];
-        y = low ? more : y;
+        const std::uint32_t low = y < kStateLow;  // once in a few numbers, at random: so in arithmetic
+        y = y << (16 * low) | (words[word < word_count ? word : word_count] & (0u - low));
         word += low;
         state[0] = state[1];
         state[1] = y;

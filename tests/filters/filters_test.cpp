@@ -4,6 +4,7 @@
 #include <limits>
 
 #include <OpenImageIO/deepdata.h>
+#include <OpenImageIO/imagecache.h>
 
 #include <pimg/imagebufalgo.h>
 
@@ -183,6 +184,25 @@ TEST(Filters, TheDestinationMayBeTheSource)
         EXPECT_FILTER(dst, filter(dst, src, {}, 0)) << name;
         EXPECT_FILTER(src, filter(src, src, {}, 0)) << name;
         EXPECT_TRUE(identical(pixels(src), pixels(dst))) << name;
+    }
+}
+
+TEST(Filters, PicturesMayLieInTheImageCache)
+{
+    const ImageBuf src = hdr_scene();
+    ASSERT_TRUE(src.write("cached.tif")) << src.geterror();
+    const std::shared_ptr<OIIO::ImageCache> cache(OIIO::ImageCache::create(false),
+                                                  [](OIIO::ImageCache* c) { OIIO::ImageCache::destroy(c); });
+    for (const auto& [name, filter] : all_filters<ImageBuf>()) {
+        const ImageBuf cached("cached.tif", 0, 0, cache.get());
+        ImageBuf direct, from_cache, into_cached("cached.tif", 0, 0, cache.get());
+        ASSERT_TRUE(cached.init_spec("cached.tif", 0, 0));
+        ASSERT_EQ(cached.storage(), ImageBuf::IMAGECACHE);
+        EXPECT_FILTER(direct, filter(direct, src, {}, 0)) << name;
+        EXPECT_FILTER(from_cache, filter(from_cache, cached, {}, 0)) << name;
+        EXPECT_TRUE(identical(pixels(direct), pixels(from_cache))) << name;
+        EXPECT_FILTER(into_cached, filter(into_cached, src, {}, 0)) << name;
+        EXPECT_TRUE(identical(pixels(direct), pixels(into_cached))) << name;
     }
 }
 
