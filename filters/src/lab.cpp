@@ -2,8 +2,8 @@
 #include "lab.h"
 
 #include <cmath>
+#include <utility>
 
-#include "guide.h"
 #include "parallel.h"
 
 namespace pimg {
@@ -70,6 +70,17 @@ std::vector<std::vector<float>> lab_channels(const OIIO::ImageBuf& picture, cons
         }
     });
     return lab;
+}
+
+std::vector<Raster> lab_guide(const OIIO::ImageBuf& picture, const Colour& colour, const ParallelFor& parallel)
+{
+    std::vector<Raster> channels;
+    for (std::vector<float>& samples : lab_channels(picture, colour, parallel)) {
+        for (float& sample : samples)
+            sample *= 2.55f;
+        channels.push_back({ picture.spec().width, picture.spec().height, std::move(samples) });
+    }
+    return channels;
 }
 
 }  // namespace pimg

@@ -9,6 +9,8 @@
 #include <pimg/colour.h>
 #include <pimg/types.h>
 
+#include "guide.h"
+
 namespace pimg {
 
 /// CIELAB-like channels of a float picture without special samples, one raster of its size each: L, a, b of its linear
@@ -19,5 +21,8 @@ namespace pimg {
 /// colours depends on their ratio. Negative light counts as none.
 std::vector<std::vector<float>> lab_channels(const OIIO::ImageBuf& picture, const Colour& colour,
                                              const ParallelFor& parallel);
+
+/// The same as guide channels: 255 guide units are L = 100, so that all three weigh as they are seen.
+std::vector<Raster> lab_guide(const OIIO::ImageBuf& picture, const Colour& colour, const ParallelFor& parallel);
 
 }  // namespace pimg

@@ -190,7 +190,8 @@ const std::vector<Option<BuildOptions>>& option_table<BuildOptions>()
     using T = BuildOptions;
     static const std::vector<Option<T>> table = {
         { &T::guide,
-          { "guide", 0, 0, "", "luma|log|rgb", "what decides the mesh; log for half/float pictures, else luma" } },
+          { "guide", 0, 0, "", "luma|log|rgb|lab", "what decides the mesh; log for half/float pictures, else luma" } },
+        { &T::weights, { "weights", 0, 0, "", "", "of the guide's channels, such as 1,0.5,0.5; 1 each if not given" } },
         { &T::base, { "base", 2, kAnyInt, "faces", "", "size of the base mesh" } },
         { &T::metric,
           { "metric", 0, 0, "", "volume|quadric|exact", "cost of a collapse; the last two are slow, to compare" } },

@@ -7,7 +7,10 @@
 #include <exception>
 #include <utility>
 
+#include <OpenImageIO/strutil.h>
+
 #include "contrast_envelope.h"
+#include "lab.h"
 #include "parallel.h"
 #include "progressive_image_data.h"
 
@@ -69,6 +72,22 @@ bool read_control_map(const std::string& filename, const Guide& guide, std::vect
         p += spec.nchannels;
     }
     return true;
+}
+
+/// One positive factor per guide channel from "1,0.5,0.5"; nothing from "".
+bool parse_weights(const std::string& text, std::size_t channels, std::vector<float>& weights, std::string& error)
+{
+    for (const std::string& word : OIIO::Strutil::splits(text, ",")) {
+        const float weight = OIIO::Strutil::string_is_float(word) ? OIIO::Strutil::stof(word) : 0.0f;
+        if (weight > 0.0f && std::isfinite(weight))
+            weights.push_back(weight);
+    }
+    const std::size_t given = text.empty() ? 0 : 1 + std::size_t(std::count(text.begin(), text.end(), ','));
+    if (given == weights.size() && (given == 0 || given == channels))
+        return true;
+    error = OIIO::Strutil::fmt::format("weights=\"{}\": expected {} number{} above 0, one for each channel of the guide", text,
+                                       channels, channels == 1 ? "" : "s");
+    return false;
 }
 
 std::size_t bytes(const Bands& bands)
@@ -145,7 +164,9 @@ bool ProgressiveImage::Data::hierarchy_of_guide(const MakeHierarchy& make_hierar
         m_log = std::make_unique<LogBands>();
         m_log->luminance = log_luminance(source, colour, parallel);
         channels[0] = std::move(m_log->luminance.guide);
-    } else {
+    } else if (stats.guide == "lab")
+        channels = lab_guide(source, colour, parallel);
+    else {
         StoredGuide stored = stored_guide(source, colour, stats.guide == "rgb", m_whole_numbers, parallel);
         m_guide_scale = stored.scale;
         m_guide_clipped = stored.clipped;
@@ -166,14 +187,17 @@ bool ProgressiveImage::Data::hierarchy_of_guide(const MakeHierarchy& make_hierar
 Status ProgressiveImage::Data::simplify_guide(const std::vector<Raster>& channels, const ParallelFor& parallel,
                                               const Progress& progress)
 {
+    std::string error;
+    std::vector<float> weights;
+    if (!parse_weights(options.weights, channels.size(), weights, error))
+        return Status::failure(error);
     Guide guide { channels[0].width, channels[0].height, {} };
-    for (const Raster& channel : channels)
-        guide.channels.push_back({ channel.samples.data() });
+    for (std::size_t i = 0; i < channels.size(); ++i)
+        guide.channels.push_back({ channels[i].samples.data(), weights.empty() ? 1.0f : weights[i] });
     if (options.metric != "volume" && options.mesh == "adaptive")
         return Status::failure("metric=" + options.metric + ": expected volume with mesh=adaptive");
     Stopwatch watch;
     InitialMesh initial;
-    std::string error;
     if (!find_initial_mesh(guide, parallel, progress, initial, error))
         return Status::failure(error);
     stats.sample_seconds = watch.lap();

@@ -69,7 +69,8 @@ std::vector<OptionInfo> describe_options();
 
 /// How the picture is read and its hierarchy built.
 struct BuildOptions {
-    std::string guide;          ///< luma, log or rgb; empty: log for half/float pictures, else luma
+    std::string guide;          ///< luma, log, rgb or lab (CIELAB); empty: log for half/float pictures, else luma
+    std::string weights;        ///< of the errors of the guide's channels, above 0: "1,0.5,0.5"; empty: 1 each
     int base = 128;             ///< faces of the base mesh
     std::string metric = "volume";  ///< cost of a collapse; quadric and exact are slow, for comparison
     std::string incolorspace;   ///< colour space of the picture; empty: its oiio:ColorSpace, else sRGB for 8 bit,

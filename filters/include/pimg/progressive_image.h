@@ -22,7 +22,7 @@ struct BuildStats {
     double guide_seconds = 0.0;     ///< luminance and logarithm
     double sample_seconds = 0.0;    ///< the initial mesh, if adaptive
     double simplify_seconds = 0.0;  ///< the hierarchy
-    std::string guide;              ///< the one used: luma, log or rgb
+    std::string guide;              ///< the one used: luma, log, rgb or lab
     SimplifyStats engine;
 };
 
