@@ -49,15 +49,13 @@ class Gegl(pictures.ToolTest):
         for i, operation in enumerate(OPERATIONS):
             with self.subTest(operation=operation):
                 expected, result = read(f"tool{i}.exr"), self.gegl("in.exr", "pimg:" + operation)
-                self.assertEqual(result.shape[:2], (140, 150))
-                print(operation, np.abs(result[..., :3] - expected).max(), np.abs(expected).max(), result.shape)
-                self.assertLess(np.abs(result[..., :3] - expected).max(), 1e-5 * np.abs(expected).max())
+                self.assertTrue(np.array_equal(result[..., :3], expected))
 
     def test_floats_are_not_clamped(self):
         source = read("in.exr")
         result = self.gegl("in.exr", "pimg:feature-lowpass strength=0")
         self.assertGreater(source.max(), 50)
-        self.assertLess(np.abs(result[..., :3] - source).max(), 1e-4 * source.max())
+        self.assertTrue(np.array_equal(result[..., :3], source))
 
     def test_operations_chain_with_those_of_gegl(self):
         result = self.gegl("in.exr", "gegl:crop x=20 y=30 width=90 height=80 pimg:hdr-compress gegl:exposure exposure=1")
