@@ -28,7 +28,10 @@ struct HostBuffer {
           samples(std::size_t(row_floats) * std::size_t(its_height), -1.0f)
     {
     }
-    float* pixel(int x, int y) { return &samples[std::size_t(y) * std::size_t(row_floats) + std::size_t(x * kChannels)]; }
+    float* pixel(int x, int y)
+    {
+        return &samples[std::size_t(y) * std::size_t(row_floats) + std::size_t(x * kChannels)];
+    }
     std::ptrdiff_t row_bytes() const { return row_floats * std::ptrdiff_t(sizeof(float)); }
 
     int width, height, row_floats;
@@ -46,11 +49,11 @@ OIIO::ImageBuf wrap(HostBuffer& buffer, int x, int y)
 
 class TileServer {
 public:
-    explicit TileServer(std::size_t budget) : m_budget(budget) {}
+    explicit TileServer(std::size_t budget) : m_budget(budget) { }
 
     /// Renders the part of a frame that `window`, which lies at (x, y) of it, covers. May be called from many threads.
-    bool render(int number, HostBuffer& frame, const pimg::HdrCompressOptions& options, HostBuffer& window, int x, int y,
-                std::string& error)
+    bool render(int number, HostBuffer& frame, const pimg::HdrCompressOptions& options, HostBuffer& window, int x,
+                int y, std::string& error)
     {
         const std::shared_ptr<const pimg::ProgressiveImage> image = image_of(number, frame);
         error = image->error();
@@ -116,7 +119,8 @@ bool equal(HostBuffer& whole, HostBuffer& window, int x, int y)
 {
     for (int row = 0; row < window.height && y + row < whole.height; ++row) {
         const int width = std::min(window.width, whole.width - x);
-        if (std::memcmp(whole.pixel(x, y + row), window.pixel(0, row), std::size_t(width) * kChannels * sizeof(float)) != 0)
+        if (std::memcmp(whole.pixel(x, y + row), window.pixel(0, row), std::size_t(width) * kChannels * sizeof(float))
+            != 0)
             return false;
     }
     return true;
@@ -153,7 +157,7 @@ int main()
         serve(0);
         other.join();
     }
-    std::printf("%d windows of %d frames, %d differ from the whole frame, %d hierarchies built\n", windows.load(), kFrames,
-                wrong.load(), server.builds());
+    std::printf("%d windows of %d frames, %d differ from the whole frame, %d hierarchies built\n", windows.load(),
+                kFrames, wrong.load(), server.builds());
     return wrong == 0 && server.builds() == kFrames ? 0 : 1;
 }

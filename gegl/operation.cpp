@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every filter as an operation of GEGL: pimg:hdr-compress, pimg:paint, pimg:feature-lowpass and so on, with properties made
-// from the option tables. GEGL's own macros want properties written out, so its classes are registered by hand here.
+// Every filter as an operation of GEGL: pimg:hdr-compress, pimg:paint, pimg:feature-lowpass and so on, with properties
+// made from the option tables. GEGL's own macros want properties written out, so classes are registered by hand here.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -22,8 +22,8 @@ namespace {
 using pimg::Filter;
 using pimg::OptionInfo;
 
-/// An operation is one object of this class for as long as its node is in the graph. The hierarchy is kept and built again only
-/// when other pixels come in.
+/// An operation is one object of this class for as long as its node is in the graph. The hierarchy is kept and built
+/// again only when other pixels come in.
 struct Operation {
     GeglOperationFilter parent;
     struct State* state;
@@ -73,7 +73,8 @@ void find_slider(const OptionInfo& option, double preset, double& low, double& h
 /// What stands for "not set" is one below the range, as in the options structs.
 GParamSpec* property(const OptionInfo& option)
 {
-    const std::string name = dashed(option.key), help = option.help + (option.unit.empty() ? "" : " (" + option.unit + ")");
+    const std::string name = dashed(option.key),
+                      help = option.help + (option.unit.empty() ? "" : " (" + option.unit + ")");
     const auto flags = GParamFlags(G_PARAM_READWRITE | G_PARAM_CONSTRUCT | GEGL_PARAM_PAD_INPUT);
     const bool unset = option.default_value.empty();
     const double preset = unset ? -1.0 : OIIO::Strutil::stod(option.default_value);
@@ -110,7 +111,8 @@ void set_property(GObject* object, guint id, const GValue* value, GParamSpec* sp
     State& state = *operation_of(object)->state;
     const std::string& key = (*class_of(object)->options)[id - 1].key;
     const std::lock_guard<std::mutex> lock(state.mutex);
-    const auto given = std::find_if(state.texts.begin(), state.texts.end(), [&](auto& text) { return text.first == key; });
+    const auto given =
+        std::find_if(state.texts.begin(), state.texts.end(), [&](auto& text) { return text.first == key; });
     if (given != state.texts.end())
         state.texts.erase(given);
     if (!g_param_value_defaults(spec, value))
@@ -179,8 +181,7 @@ void declare_primaries(OIIO::ImageSpec& spec, const Babl* format)
     if (space == babl_space("sRGB"))
         return;
     double xy[8];
-    babl_space_get(space, &xy[6], &xy[7], &xy[0], &xy[1], &xy[2], &xy[3], &xy[4], &xy[5],
-                   nullptr, nullptr, nullptr);
+    babl_space_get(space, &xy[6], &xy[7], &xy[0], &xy[1], &xy[2], &xy[3], &xy[4], &xy[5], nullptr, nullptr, nullptr);
     float chromaticities[8];
     std::copy(std::begin(xy), std::end(xy), chromaticities);
     spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), chromaticities);

@@ -54,6 +54,14 @@ def compiled(scratch, settings):
     raise RuntimeError(f"nothing was installed from {tree}")
 
 
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    info = f"{NAME}-{version()}.dist-info"
+    os.mkdir(os.path.join(metadata_directory, info))
+    with open(os.path.join(metadata_directory, info, "METADATA"), "w", encoding="utf-8") as file:
+        file.write(metadata())
+    return info
+
+
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     info = f"{NAME}-{version()}.dist-info"
     name = f"{NAME}-{version()}-{tag()}.whl"

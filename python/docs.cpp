@@ -2,17 +2,16 @@
 #include "docs.h"
 
 #include <algorithm>
-#include <cstring>
-#include <stdexcept>
 
 #include <OpenImageIO/strutil.h>
+
+#include "pimg_pvt.h"
+#include "texts.h"
 
 namespace pimg {
 namespace python {
 
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 std::string to_text(const py::handle& value)
 {
@@ -67,8 +66,9 @@ py::object default_of(const OptionInfo& option)
 
 std::string paragraph(const OptionInfo& option)
 {
-    static const std::pair<const char*, const char*> types[]
-        = { { "flag", "bool" }, { "int", "int" }, { "float", "float" }, { "string", "str" } };
+    static const std::pair<const char*, const char*> types[] = {
+        { "flag", "bool" }, { "int", "int" }, { "float", "float" }, { "string", "str" }
+    };
     std::string text = python_name(option) + " : ";
     for (const auto& [type, python_type] : types)
         if (option.type == type)
@@ -123,54 +123,39 @@ py::list to_list(const std::vector<OptionInfo>& options)
     return list;
 }
 
-std::string docstring(const std::string& name, const std::string& first, const std::string& rest,
-                      const std::vector<OptionInfo>& options, const std::string& before, const std::string& after)
+std::vector<OptionInfo> options_of(const std::string& name)
 {
+    if (name == "build" || name == "open")
+        return describe_options<BuildOptions>();
+    if (name == "save") {
+        std::vector<OptionInfo> options = describe_options<io::WriteOptions>();
+        options[0].default_value = "full";
+        return options;
+    }
+    std::string error;
+    const Filter* filter = find_filter(name == "resolve_hdr_compress" ? "hdr_compress" : name, error);
+    if (filter == nullptr)
+        throw py::value_error(error + ", build, open, save");
+    return filter->options();
+}
+
+std::string doc(const std::string& name, const std::string& first)
+{
+    const FunctionText& text = function_text(name);
     std::string signature = name + "(" + first + ", *", parameters;
-    for (const OptionInfo& option : options) {
+    for (const OptionInfo& option : options_of(name)) {
         signature += ", " + python_name(option) + "=" + literal(option);
         parameters += paragraph(option);
     }
-    return signature + rest + ")\n--\n\n" + before + "\n\nParameters\n----------\n" + parameters + after;
-}
-
-const FilterText& text_of(const Filter& filter)
-{
-    static const FilterText texts[] = {
-        { "hdr_compress",
-          "Compresses a scene's range of luminance to a display's (paper, section 5.1). Without options everything is\n"
-          "found from the picture; values of 0 that are described so stand for that.",
-          "Display-linear light, float, white at 1; srgb_encoded() makes it fit for a screen or an 8-bit file. With\n"
-          "fit=False in the units of the source." },
-        { "feature_lowpass",
-          "Smooths texture away and keeps edges and thin lines. By strength, or by splits or fraction (paper, section\n"
-          "4.1); none of them means strength=0.03, or 0.3 stops with log.",
-          "As the source; strength=0 is the source, bit for bit." },
-        { "detail_enhance",
-          "Multiplies details: those of a range of splits (paper, section 4.1) or, with strength, noise or log, what\n"
-          "feature_lowpass() of that strength removes.",
-          "As the source, but float if that is whole numbers; may exceed its range. gain=1 is the source, bit for bit." },
-        { "segment",
-          "Partitions the picture into connected regions that look alike (paper, section 4.2). Other numbers of regions of\n"
-          "the same ProgressiveImage are nested and cost one pass.",
-          "labels: uint32 numbers from 0, one channel; mean: as the source; boundaries: one channel, 1 or 0." },
-        { "paint", "Paints the picture with brush strokes that follow its forms (paper, section 5.2).",
-          "As the source." },
-        { "mosaic", "Lays the dual pieces of a level as tiles of their mean colour (paper, section 7).",
-          "As the source." },
-        { "ink", "Draws with black lines (0) on white paper (1) along the edges (paper, section 7).",
-          "As the source, every colour channel the same." },
-        { "level",
-          "The mesh M_i of one level as a picture: its triangles, Gouraud-shaded. At most one option; none means the\n"
-          "finest level.",
-          "As the source." },
-        { "wireframe", "The edges of the mesh M_i, black on white or, with overlay, on the picture of the level.",
-          "As the source." },
-    };
-    for (const FilterText& text : texts)
-        if (std::strcmp(text.name, filter.name) == 0)
-            return text;
-    throw std::logic_error(format("no text for {}", filter.name));
+    for (const char* argument : text.arguments) {
+        const ArgumentText& more = argument_text(argument);
+        signature += std::string(", ") + more.name + "=" + more.preset;
+        parameters += more.description;
+    }
+    const bool takes_pictures = first == "src" && name != "build";
+    return signature + ")\n--\n\n" + text.description + (takes_pictures ? kSourceText : "")
+        + "\n\nParameters\n----------\n" + parameters + "\nReturns\n-------\n" + text.result + "\n\nRaises\n------\n"
+        + text.errors;
 }
 
 }  // namespace python

@@ -22,8 +22,9 @@ struct SampleType {
 };
 
 constexpr SampleType kSampleTypes[] = {
-    { 'u', 1, "uint8", TypeDesc::UINT8 },  { 'u', 2, "uint16", TypeDesc::UINT16 }, { 'u', 4, "uint32", TypeDesc::UINT32 },
-    { 'f', 2, "float16", TypeDesc::HALF }, { 'f', 4, "float32", TypeDesc::FLOAT }, { 'f', 8, "float64", TypeDesc::DOUBLE },
+    { 'u', 1, "uint8", TypeDesc::UINT8 },   { 'u', 2, "uint16", TypeDesc::UINT16 },
+    { 'u', 4, "uint32", TypeDesc::UINT32 }, { 'f', 2, "float16", TypeDesc::HALF },
+    { 'f', 4, "float32", TypeDesc::FLOAT }, { 'f', 8, "float64", TypeDesc::DOUBLE },
 };
 
 std::string text(const py::handle& object)
@@ -55,15 +56,17 @@ Picture from_array(const py::array& array)
         throw py::value_error(
             format("an array of shape {}: expected (height, width) or (height, width, channels), none of them 0",
                    text(array.attr("shape"))));
-    const py::array packed
-        = py::module_::import("numpy").attr("ascontiguousarray")(array, array.dtype().attr("newbyteorder")("="));
+    const py::array packed =
+        py::module_::import("numpy").attr("ascontiguousarray")(array, array.dtype().attr("newbyteorder")("="));
     const int channels = array.ndim() == 3 ? int(array.shape(2)) : 1;
     ImageSpec spec(int(array.shape(1)), int(array.shape(0)), channels, type);
     if (channels == 2) {
         spec.channelnames = { "Y", "A" };
         spec.alpha_channel = 1;
     }
-    return { std::make_shared<const ImageBuf>(spec, const_cast<void*>(packed.data())), { true, array.ndim() == 2 }, packed };
+    return { std::make_shared<const ImageBuf>(spec, const_cast<void*>(packed.data())),
+             { true, array.ndim() == 2 },
+             packed };
 }
 
 }  // namespace

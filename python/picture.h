@@ -26,10 +26,12 @@ struct Picture {
     py::object owner;
 };
 
-/// From an ImageBuf or an array of shape (height, width) or (height, width, channels). TypeError or ValueError for all else.
+/// From an ImageBuf or an array of shape (height, width) or (height, width, channels). TypeError or ValueError for all
+/// else.
 Picture to_picture(py::object object);
 
-/// The result of a filter on a picture of that form. One channel made from several, such as labels, has no axis of channels.
+/// The result of a filter on a picture of that form. One channel made from several, such as labels, has no axis of
+/// channels.
 py::object to_python(OIIO::ImageBuf result, Form form, int channels_of_source);
 
 /// From None, an OpenImageIO.ROI or (xbegin, xend, ybegin, yend).

@@ -39,7 +39,7 @@ Options options_from(const OptionTexts& texts)
 /// Calls Python's function from the engine, which must not see an exception.
 class ProgressReport {
 public:
-    explicit ProgressReport(const py::object& function) : m_function(function) {}
+    explicit ProgressReport(const py::object& function) : m_function(function) { }
     bool operator()(float done)
     {
         const py::gil_scoped_acquire gil;
@@ -220,8 +220,8 @@ py::dict resolve_hdr_compress(const Progressive& progressive, int nthreads, cons
         throw py::value_error(error);
     py::dict result;
     for (const Option<HdrCompressOptions>& option : option_table<HdrCompressOptions>())
-        result[option.rule.key] = std::visit([](const auto& value) { return py::object(py::cast(value)); },
-                                             get_option(options, option));
+        result[option.rule.key] =
+            std::visit([](const auto& value) { return py::object(py::cast(value)); }, get_option(options, option));
     return result;
 }
 

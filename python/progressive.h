@@ -19,8 +19,8 @@ struct Progressive {
     Form form;
 };
 
-/// Builds with the GIL released. `progress`: None or a function of the share done, called now and then; what it raises, and
-/// Ctrl-C, end the work.
+/// Builds with the GIL released. `progress`: None or a function of the share done, called now and then; what it raises,
+/// and Ctrl-C, end the work.
 Progressive build(const py::object& source, const py::object& progress, int nthreads, const OptionTexts& options);
 
 /// Takes the hierarchy from the file if there is one and no option asks for another.

@@ -54,11 +54,14 @@ bool guarded(char* error, std::size_t error_size, Body&& body) noexcept
 
 bool check(const pimg_pixels* pixels, const char* name, std::string& error)
 {
-    const auto is_side = [](int side) { return side >= 1 && side <= kLargestSide; };
+    const auto is_side = [](int side) {
+        return side >= 1 && side <= kLargestSide;
+    };
     if (pixels == nullptr || pixels->data == nullptr)
         error = format("{}: expected pixels", name);
     else if (!is_side(pixels->width) || !is_side(pixels->height))
-        error = format("{}: {} x {} pixels: expected sides of 1 to {}", name, pixels->width, pixels->height, kLargestSide);
+        error =
+            format("{}: {} x {} pixels: expected sides of 1 to {}", name, pixels->width, pixels->height, kLargestSide);
     else if (pixels->channels < 1 || pixels->channels > 1024)
         error = format("{}: {} channels: expected 1 to 1024", name, pixels->channels);
     else
@@ -85,7 +88,8 @@ pimg_image* pimg_build(const pimg_pixels* picture, const char* options, char* er
     const bool built = guarded(error, error_size, [&](std::string& message) {
         pimg::OptionTexts texts;
         pimg::BuildOptions build;
-        if (!check(picture, "picture", message) || !pimg::split_options(options != nullptr ? options : "", texts, message)
+        if (!check(picture, "picture", message)
+            || !pimg::split_options(options != nullptr ? options : "", texts, message)
             || !pimg::set_options(build, texts, message))
             return false;
         image = std::make_unique<pimg_image>();

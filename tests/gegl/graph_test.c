@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause
- * A graph as GIMP has it: a property changes, the pixels do not. The node keeps its hierarchy, and gives what a new node gives. */
+ * A graph as GIMP has it: a property changes, the pixels do not. The node keeps its hierarchy, and gives what a new
+ * node gives. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The filters of imagebufalgo.h by name, with their options as text: for hosts that know a filter only when they run, such
-// as Python, C and GEGL.
+// The filters of imagebufalgo.h by name, with their options as text: for hosts that know a filter only when they run,
+// such as Python, C and GEGL.
 #pragma once
 
 #include <functional>
@@ -20,8 +20,7 @@ namespace pimg {
 using OptionTexts = std::vector<std::pair<std::string, std::string>>;
 
 /// A filter with its options, checked.
-using BoundFilter
-    = std::function<bool(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI roi, int nthreads)>;
+using BoundFilter = std::function<bool(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI roi, int nthreads)>;
 
 /// One row of the table.
 struct Filter {
