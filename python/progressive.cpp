@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "progressive.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/strutil.h>
+#include <pimg/display.h>
 #include <pimg/imagebufalgo.h>
 
 #include "pimg_pvt.h"
@@ -142,6 +144,9 @@ Progressive open(const std::string& filename, bool array, const py::object& prog
     const auto build_options = options_from<BuildOptions>(options);
     Progressive result;
     result.form.array = array;
+    const bool rebuild = std::any_of(options.begin(), options.end(), [](const auto& option) {
+        return option.first != "incolorspace";
+    });
     std::string error;
     build_with(result.image, progress, [&](const Progress& report) {
         const std::unique_ptr<OIIO::ImageInput> input = io::make_input();
@@ -151,7 +156,7 @@ Progressive open(const std::string& filename, bool array, const py::object& prog
             return true;
         OIIO::Filesystem::IOFile proxy(filename, OIIO::Filesystem::IOProxy::Read);
         Decoder decoder;
-        if (is_pimg && options.empty() && io::open_decoder(&proxy, decoder) && decoder.has_hierarchy())
+        if (is_pimg && !rebuild && io::open_decoder(&proxy, decoder) && decoder.has_hierarchy())
             return result.image.adopt(*result.pixels, io::stored_hierarchy(decoder, *result.pixels), build_options,
                                       nthreads);
         return result.image.build(*result.pixels, build_options, nthreads, report);
@@ -176,6 +181,9 @@ void save(const Progressive& progressive, const std::string& filename, const Opt
         const std::unique_ptr<OIIO::ImageOutput> output = io::make_output(&progressive.image.hierarchy());
         ImageSpec spec = progressive.pixels->spec();
         io::add_hints(spec, write_options);
+        const std::string& space = progressive.image.options().incolorspace;
+        if (!space.empty())
+            declare_space(spec, space);
         spec.tile_width = spec.tile_height = 0;
         if (!output->open(filename, spec) || !progressive.pixels->write(output.get()) || !output->close()) {
             error = output->geterror();

@@ -319,6 +319,15 @@ class Files(unittest.TestCase):
         opened = pimg.open(self.folder / "compact.pimg", array=True)
         self.assertTrue(np.array_equal(opened.feature_lowpass(strength=0), picture("uint8")))
 
+    def test_the_colour_space_is_kept(self):
+        path = self.folder / "aces.pimg"
+        plain, aces = pimg.build(scene()), pimg.build(scene(), incolorspace="acescg")
+        aces.save(path)
+        expected = aces.hdr_compress(fit=False, s0=0.5)
+        for opened in (pimg.open(path, array=True), pimg.open(path, array=True, incolorspace="acescg")):
+            self.assertLess(np.abs(opened.hdr_compress(fit=False, s0=0.5) - expected).mean(), 1e-4 * expected.max())
+        self.assertGreater(np.abs(plain.hdr_compress(fit=False, s0=0.5) - expected).mean(), 1e-3 * expected.max())
+
     def test_other_files_and_results_that_are_buffers(self):
         name = str(self.folder / "in.exr")
         buffer_of(scene()).write(name)

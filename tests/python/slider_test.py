@@ -37,10 +37,10 @@ class Sliders(unittest.TestCase):
             each.reset()
         self.assertTrue(np.array_equal(tuner.image.get_array(), start))
 
-    def test_every_filter_and_kind_of_picture(self):
-        for source in (scene(), picture("uint8"), picture("uint16"), scene()[..., 0]):
+    def test_other_filters_and_kinds_of_pictures(self):
+        for source in (scene(), picture("uint8"), scene()[..., 0]):
             p = pimg.build(source)
-            for name in ("feature_lowpass", "detail_enhance", "paint", "segment"):
+            for name in ("feature_lowpass", "segment"):
                 tuner = slider.Tuner(p, name)
                 option = list(tuner.sliders)[0]
                 shown = self.drag(tuner, option, 2)
