@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the examples of docs/python.md ($DOCS is the folder), one after the other as a reader would."""
+"""Runs the examples of README.md and docs/python.md ($DOCS is its folder), one after the other as a reader would."""
 
 import os
 import tempfile
@@ -21,13 +21,14 @@ class Examples(unittest.TestCase):
         picture = oiio.ImageBuf(oiio.ImageSpec(120, 90, 3, "half"))
         picture.set_pixels(picture.roi, light)
         picture.write("in.exr")
-        examples = blocks(os.path.join(os.environ["DOCS"], "python.md"), "python")
-        self.assertGreaterEqual(len(examples), 5)
-        names = {}
-        for example in examples:
-            exec(compile(example, "docs/python.md", "exec"), names)
-        for beta in (2, 5, 10):
-            self.assertTrue(os.path.exists(f"beta{beta}.png"))
+        for page, least in (("../README.md", 1), ("python.md", 5)):
+            examples = blocks(os.path.join(os.environ["DOCS"], page), "python")
+            self.assertGreaterEqual(len(examples), least)
+            names = {}
+            for example in examples:
+                exec(compile(example, page, "exec"), names)
+        for name in ("out.png", "beta2.png", "beta5.png", "beta10.png", "in.pimg"):
+            self.assertTrue(os.path.exists(name))
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ import ast
 import inspect
 import os
 import pathlib
+import signal
 import tempfile
 import threading
 import time
@@ -289,6 +290,12 @@ class Concurrency(unittest.TestCase):
 
         with self.assertRaises(KeyError):
             pimg.build(array, progress=stop)
+
+    def test_ctrl_c_stops_building(self):
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        threading.Timer(0.05, os.kill, (os.getpid(), signal.SIGINT)).start()
+        with self.assertRaises(KeyboardInterrupt):
+            pimg.build(scene(width=900, height=700))
 
 
 class Files(unittest.TestCase):
