@@ -13,6 +13,8 @@ readonly packages=(
     libopenimageio-dev openimageio-tools libopencolorio-dev libimath-dev libopenexr-dev libopencv-dev
     libhwy-dev libzstd-dev libboost-dev
     python3-dev python3-zstandard python3-numpy python3-openimageio pybind11-dev
+    python3-venv python3-matplotlib
+    libgegl-dev gegl
     libgtest-dev libbenchmark-dev libcgal-dev
     xvfb xauth binutils
 )

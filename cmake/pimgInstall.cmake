@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The CMake package `pimg` and the pkg-config module `pimg`.
+# The CMake package `pimg`, the pkg-config modules `pimg` and, for C, `pimg-c`.
 include(CMakePackageConfigHelpers)
 
 configure_package_config_file(cmake/pimgConfig.cmake.in pimgConfig.cmake
@@ -19,8 +19,10 @@ else()
         "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_FULL_INCLUDEDIR}")
     string(PREPEND PIMG_PC_INCLUDEDIR "\${pcfiledir}/")
 endif()
-configure_file(cmake/pimg.pc.in pimg.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/pimg.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+foreach(module pimg pimg-c)
+    configure_file(cmake/${module}.pc.in ${module}.pc @ONLY)
+    install(FILES ${PROJECT_BINARY_DIR}/${module}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endforeach()
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # What files of ours are, for file(1) and for desktops.

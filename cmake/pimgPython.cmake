@@ -13,7 +13,7 @@ endfunction()
 
 find_program(PIMG_PYTHON NAMES python3 PATHS /usr/bin /usr/local/bin VALIDATOR _pimg_python_has_modules
     DOC "A python3 that can import OpenImageIO and numpy")
-if(NOT PIMG_PYTHON)
+if(PIMG_BUILD_TESTS AND NOT PIMG_PYTHON)
     message(FATAL_ERROR
         "The tests need a python3 with OpenImageIO and NumPy (Debian: python3-openimageio python3-numpy); "
         "set PIMG_PYTHON to one or PIMG_BUILD_TESTS to OFF")

@@ -255,7 +255,11 @@ ImageSpec to_spec(const PictureDesc& desc)
 
 void add_hints(ImageSpec& spec, const WriteOptions& options)
 {
+    const WriteOptions defaults;
     for (const Option<WriteOptions>& option : option_table<WriteOptions>()) {
+        const bool is_default = option.get(options) == option.get(defaults);
+        if (is_default && describe_option(option.rule, option.get(defaults)).default_value.empty())
+            continue;  // not set: there is no hint for that
         const std::string name = std::string("pimg:") + option.rule.key;
         const auto add = [&](const auto& value) { spec.attribute(name, value); };
         std::visit([&](const auto& value) {

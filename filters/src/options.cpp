@@ -170,6 +170,8 @@ OptionInfo describe_option(const OptionRule& rule, const OptionValue& default_va
     if (rule.min > double(-1) && rule.min != rule.max && info.default_value == "-1")
         info.default_value.clear();  // -1 stands for "not set"
     info.help = rule.help;
+    info.min = rule.min;
+    info.max = rule.max;
     return info;
 }
 

@@ -90,6 +90,18 @@ bool parse_weights(const std::string& text, std::size_t channels, std::vector<fl
     return false;
 }
 
+/// OpenImageIO 2.4 copies pixels that have gaps between them as if there were none.
+bool copy_as_float(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src)
+{
+    const bool packed = src.pixel_stride() == OIIO::stride_t(src.spec().pixel_bytes());
+    if (src.localpixels() == nullptr || packed)
+        return dst.copy(src, OIIO::TypeDesc::FLOAT);
+    OIIO::ImageSpec spec = src.spec();
+    spec.set_format(OIIO::TypeDesc::FLOAT);
+    dst.reset(spec);
+    return src.get_pixels(src.roi(), OIIO::TypeDesc::FLOAT, dst.localpixels());
+}
+
 std::size_t bytes(const Bands& bands)
 {
     return (bands.base.capacity() + bands.residual.capacity()) * sizeof(float)
@@ -117,7 +129,7 @@ bool ProgressiveImage::Data::read(const OIIO::ImageBuf& src, std::string& error)
         error = "the picture is empty";
         return false;
     }
-    if (!source.copy(src, OIIO::TypeDesc::FLOAT) || source.localpixels() == nullptr) {
+    if (!copy_as_float(source, src) || source.localpixels() == nullptr) {
         error = source.has_error() ? source.geterror() : src.geterror(false);
         return false;
     }

@@ -22,12 +22,13 @@ fi
 echo "== find_package"
 "$CMAKE" -S "$here" -B project -G "$GENERATOR" -DCMAKE_PREFIX_PATH="$PWD/moved" >configure.log
 "$CMAKE" --build project >build.log || { cat build.log; exit 1; }
-check_version project/use_core
-check_version project/use_filters
+for program in use_core use_filters use_c; do
+    check_version project/$program
+done
 
 echo "== pkg-config"
 export PKG_CONFIG_PATH="$PWD/moved/$LIBDIR/pkgconfig"
-[[ $(pkg-config --modversion pimg) == "$VERSION" ]]
+[[ $(pkg-config --modversion pimg) == "$VERSION" && $(pkg-config --modversion pimg-c) == "$VERSION" ]]
 # shellcheck disable=SC2046,SC2086  # flags are words
 "$CXX" -std=c++17 $CXXFLAGS "$here/use_core.cpp" -o use_core $(pkg-config --cflags --libs pimg)
 check_version ./use_core

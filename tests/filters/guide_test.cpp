@@ -80,16 +80,21 @@ TEST(Guide, EveryGuideReturnsTheSourceAtTheFinestLevel)
                 EXPECT_FILTER(dst, ImageBufAlgo::detail_enhance(dst, progressive, neutral));
                 const std::vector<float> a = pixels(src), b = pixels(dst);
                 for (std::size_t i = 0; i < a.size(); ++i)
-                    ASSERT_NEAR(b[i], a[i], 1e-6f * (1.0f + a[i])) << guide << " " << channels;
+                    ASSERT_NEAR(b[i], a[i], 1e-5f * (1.0f + a[i])) << guide << " " << channels;
             }
 }
 
 TEST(Guide, TheChannelThatWeighsMoreIsKeptBetter)
 {
-    const ImageBuf src = hdr_scene(96, 64, OIIO::TypeUInt8, 3, 0.02f);
+    ImageBuf src(OIIO::ImageSpec(96, 64, 3, OIIO::TypeUInt8));
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 96; ++x) {
+            const float p[3] = { scene(x, y, 96, 64) / 255.0f, 0.5f, scene(95 - x, 63 - y, 96, 64) / 255.0f };
+            src.setpixel(x, y, p);
+        }
     const ImageBuf red = level_of(src, guided("rgb", "30,1,1"), 0.05f), blue = level_of(src, guided("rgb", "1,1,30"), 0.05f);
-    EXPECT_GT(psnr(src, red, 0), psnr(src, blue, 0));
-    EXPECT_GT(psnr(src, blue, 2), psnr(src, red, 2));
+    EXPECT_GT(psnr(src, red, 0), psnr(src, blue, 0) + 1.0);
+    EXPECT_GT(psnr(src, blue, 2), psnr(src, red, 2) + 1.0);
 }
 
 TEST(Guide, WeightsAreCheckedAgainstTheGuide)

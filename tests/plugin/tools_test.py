@@ -72,6 +72,9 @@ class Converting(plugin_files.PluginTest):
             self.ok("iconvert", "b.pimg", "c.pimg")
             self.ok("idiff", "-a", name, "b.pimg")
             self.ok("idiff", "b.pimg", "c.pimg")
+            for keys in ("", ":profile=compact:quality=100"):
+                self.ok(os.environ["PIMGTOOL"], name, "-o", f"d.pimg{keys}", "d.pimg", "-o", "d_" + name)
+                self.assert_same(name, "d_" + name)
 
     def test_windows_survive(self):
         # Inside the display window, and larger than it.

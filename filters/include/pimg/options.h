@@ -44,9 +44,10 @@ struct Option {
     std::function<void(T&, const OptionValue&)> set;  ///< of the type get() returns
 };
 
-/// What --help, documentation and Python show of an option.
+/// What --help, documentation and Python show of an option. `default_value` is empty for an option that is not set.
 struct OptionInfo {
     std::string key, type, unit, range, choices, default_value, help;
+    double min = 0.0, max = 0.0;  ///< as in OptionRule
 };
 
 /// The table of an options struct; specialised for each below.
