@@ -298,8 +298,8 @@ G_MODULE_EXPORT const GeglModuleInfo* gegl_module_query(GTypeModule*)
 G_MODULE_EXPORT gboolean gegl_module_register(GTypeModule* module)
 {
     for (const Filter& filter : pimg::filter_table()) {
-        if (std::string_view(filter.name) == "segment")
-            continue;  // its labels are no picture
+        if (std::string_view(filter.name) == "segment" || std::string_view(filter.name) == "dual_pieces")
+            continue;  // labels are no picture
         GTypeInfo info = {};
         info.class_size = sizeof(OperationClass);
         info.class_init = init_class;

@@ -96,6 +96,13 @@ that strength removes.)",
       R"(As the source, but float for whole numbers, which are 0 to 1 then; may exceed that range. gain=1 is the
 source, bit for bit.)",
       kFilterErrors },
+    { "dual_pieces",
+      R"(Partitions the picture into the dual pieces of one level, the finest by default (paper, section 4.2).
+
+A piece is a union of pieces at every finer level, where one of them keeps its number.)",
+      { "roi", "nthreads" },
+      R"(labels: uint32 numbers from 0, one channel; mean: as the source; boundaries: one channel, 1 or 0.)",
+      kFilterErrors },
     { "segment",
       R"(Partitions the picture into connected regions that look alike (paper, section 4.2).
 

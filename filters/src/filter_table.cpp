@@ -37,6 +37,7 @@ const std::vector<Filter>& filter_table()
         row<HdrCompressOptions, iba::hdr_compress>("hdr_compress", "Fits high dynamic range to a display"),
         row<FeatureLowpassOptions, iba::feature_lowpass>("feature_lowpass", "Smooths texture away and keeps features"),
         row<DetailEnhanceOptions, iba::detail_enhance>("detail_enhance", "Amplifies details"),
+        row<DualPiecesOptions, iba::dual_pieces>("dual_pieces", "Pixels that each vertex of a level stands for"),
         row<SegmentOptions, iba::segment>("segment", "Merges what looks alike into connected regions"),
         row<PaintOptions, iba::paint>("paint", "Paints with brush strokes that follow the picture's forms"),
         row<MosaicOptions, iba::mosaic>("mosaic", "Lays the pieces of a level as tiles"),

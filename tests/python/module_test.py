@@ -22,6 +22,7 @@ CHANGES = {
     "hdr_compress": {"beta": 2},
     "feature_lowpass": {"splits": 50},
     "detail_enhance": {"gain": 4.0},
+    "dual_pieces": {"vertices": 100},
     "segment": {"regions": 9},
     "paint": {"min": 8},
     "mosaic": {"tiles": 60},
@@ -68,7 +69,7 @@ class Filters(unittest.TestCase):
                 method = getattr(p, name)()
                 self.assertTrue(np.array_equal(method, getattr(pimg, name)(scene())))
                 self.assertTrue(np.array_equal(method, getattr(pimg, name)(p)))
-                self.assertEqual(method.shape, (47, 61) if name == "segment" else (47, 61, 3))
+                self.assertEqual(method.shape, (47, 61) if name in ("dual_pieces", "segment") else (47, 61, 3))
                 self.assertFalse(np.array_equal(method, getattr(p, name)(**CHANGES[name])), "the option does nothing")
 
     def test_arrays_and_buffers_give_the_same(self):
