@@ -6,6 +6,7 @@
 #include <cstring>
 #include <numeric>
 
+#include "large_pages.h"
 #include "pixel_stencils.h"
 
 namespace pimg {
@@ -119,11 +120,11 @@ void fill_splits(const CollapseSequence& sequence, const std::vector<Index>& by_
                  const ParallelFor& parallel, Hierarchy& h, std::vector<Bands>& bands)
 {
     const std::size_t n = sequence.records.size(), more = bands.size() - 1;
-    h.splits.resize(n);
-    h.stencils.resize(n);
-    h.costs.resize(n);
+    resize_on_large_pages(h.splits, n);
+    resize_on_large_pages(h.stencils, n);
+    resize_on_large_pages(h.costs, n);
     for (Bands& b : bands)
-        b.details.resize(n);
+        resize_on_large_pages(b.details, n);
     const auto renumber = [&](Index name) {
         return name == kGhost ? kGhost : number[name];
     };
@@ -142,7 +143,7 @@ void fill_splits(const CollapseSequence& sequence, const std::vector<Index>& by_
 /// Pixels of the finest mesh: of vertices by their number, and those between.
 void fill_pixels(const Finest& finest, const std::vector<Index>& number, Hierarchy& h)
 {
-    h.pixels.resize(number.size());
+    resize_on_large_pages(h.pixels, number.size());
     for (Index name = 0; name < Index(number.size()); ++name)
         h.pixels[number[name]] = finest.initial ? finest.initial->pixels[name] : name;
     if (number.size() == h.mesh_pixels())

@@ -11,9 +11,7 @@
 #include <type_traits>
 #include <utility>
 
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
+#include "large_pages.h"
 
 namespace pimg {
 
@@ -92,18 +90,6 @@ private:
         m_block = block;
         m_data = reinterpret_cast<T*>(to);
         m_capacity = capacity;
-    }
-
-    /// Large pages where the system gives them on request: a tenth of the time would go into faults and look-ups.
-    static void advise_large_pages([[maybe_unused]] void* block, [[maybe_unused]] std::size_t bytes)
-    {
-#ifdef __linux__
-        constexpr std::uintptr_t kPage = 4096;
-        const std::uintptr_t first = (reinterpret_cast<std::uintptr_t>(block) + kPage - 1) / kPage * kPage;
-        const std::uintptr_t last = (reinterpret_cast<std::uintptr_t>(block) + bytes) / kPage * kPage;
-        if (last > first + (std::uintptr_t(4) << 20))
-            madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
-#endif
     }
 
     void* m_block = nullptr;
