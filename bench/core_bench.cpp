@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The engine, one thread: building, analysing, sweeping. Items are vertices or splits.
+// The engine: building, analysing, sweeping. Items are vertices or splits.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <cstring>
 #include <map>
 
 #include <pimg/bands.h>
@@ -39,6 +40,8 @@ void build(benchmark::State& state)
     bench::guide(size);
     Built b;
     for (auto _ : state) {
+        b.hierarchy = {};
+        b.bands.clear();
         const pimg::Status status = simplify(size, b);
         if (!status) {
             state.SkipWithError(status.error().c_str());
@@ -50,7 +53,7 @@ void build(benchmark::State& state)
     state.counters["bytes_per_pixel"] = double(b.stats.peak_bytes) / pixels;
     state.counters["stored_per_pixel"] = double(b.hierarchy.memory()) / pixels;
 }
-BENCHMARK(build)->Arg(512)->Arg(1024)->Arg(2048)->Unit(benchmark::kMillisecond);
+BENCHMARK(build)->Arg(512)->Arg(1024)->Arg(2048)->Arg(4096)->Unit(benchmark::kMillisecond);
 
 void analyse(benchmark::State& state)
 {
@@ -83,5 +86,19 @@ void sweep(benchmark::State& state)
     state.SetItemsProcessed(state.iterations() * b.hierarchy.levels());
 }
 BENCHMARK(sweep)->Arg(512)->Arg(1024)->Arg(2048)->Unit(benchmark::kMillisecond);
+
+/// What a retune reads and writes, copied: stencil, detail, place of a vertex, RGB in and out. Items are pixels.
+void copy(benchmark::State& state)
+{
+    const std::size_t pixels = std::size_t(state.range(0) * state.range(0));
+    const std::size_t bytes = sizeof(pimg::Stencil) + sizeof(pimg::Detail) + sizeof(pimg::Index) + 6 * sizeof(float);
+    std::vector<char> from(pixels * bytes / 2, 1), to(from.size());
+    for (auto _ : state) {
+        std::memcpy(to.data(), from.data(), from.size());
+        benchmark::ClobberMemory();
+    }
+    state.SetItemsProcessed(state.iterations() * std::int64_t(pixels));
+}
+BENCHMARK(copy)->Arg(512)->Arg(1024)->Unit(benchmark::kMillisecond);
 
 }  // namespace

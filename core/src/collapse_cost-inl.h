@@ -24,16 +24,19 @@ using Lanes = hn::CappedTag<float, 8>;
 using Four = hn::FixedTag<float, 4>;
 using V4 = hn::Vec<Four>;
 
-/// Columns of four rows.
-HWY_INLINE void transpose(V4& a, V4& b, V4& c, V4& d)
+/// Columns of four rows, in each block of four lanes.
+template<class D, class V = hn::Vec<D>>
+HWY_INLINE void transpose(D d, V& a, V& b, V& c, V& e)
 {
-    const Four f;
-    const V4 ab_low = hn::InterleaveLower(f, a, b), cd_low = hn::InterleaveLower(f, c, d);
-    const V4 ab_high = hn::InterleaveUpper(f, a, b), cd_high = hn::InterleaveUpper(f, c, d);
-    a = hn::ConcatLowerLower(f, cd_low, ab_low);
-    b = hn::ConcatUpperUpper(f, cd_low, ab_low);
-    c = hn::ConcatLowerLower(f, cd_high, ab_high);
-    d = hn::ConcatUpperUpper(f, cd_high, ab_high);
+    const hn::Repartition<std::uint64_t, D> two;
+    const auto ab_low = hn::BitCast(two, hn::InterleaveLower(d, a, b));
+    const auto ab_high = hn::BitCast(two, hn::InterleaveUpper(d, a, b));
+    const auto ce_low = hn::BitCast(two, hn::InterleaveLower(d, c, e));
+    const auto ce_high = hn::BitCast(two, hn::InterleaveUpper(d, c, e));
+    a = hn::BitCast(d, hn::InterleaveLower(two, ab_low, ce_low));
+    b = hn::BitCast(d, hn::InterleaveUpper(two, ab_low, ce_low));
+    c = hn::BitCast(d, hn::InterleaveLower(two, ab_high, ce_high));
+    e = hn::BitCast(d, hn::InterleaveUpper(two, ab_high, ce_high));
 }
 
 /// The nine products of four normals.
@@ -70,8 +73,8 @@ HWY_INLINE FanSums add_up(const Normals& n, int lanes)
     }
     for (int k = 0; k < 9; ++k)
         s[k] = s[k] + t[k];
-    transpose(s[0], s[1], s[2], s[3]);
-    transpose(s[4], s[5], s[6], s[7]);
+    transpose(f, s[0], s[1], s[2], s[3]);
+    transpose(f, s[4], s[5], s[6], s[7]);
     const V4 z = s[8] + hn::Shuffle1032(s[8]);
     FanSums sums;
     hn::StoreU((s[0] + s[2]) + (s[1] + s[3]), f, &sums.xx);
@@ -91,11 +94,10 @@ HWY_INLINE void close(Corners& c, int degree, int lanes)
 }
 
 /// 1 for lanes that hold a triangle (corner j, corner j + 1), else 0.
-HWY_INLINE hn::Vec<Lanes> whole(const Corners& c, int degree, int j)
+HWY_INLINE hn::Vec<Lanes> whole(const Corners& c, int j)
 {
     const Lanes d;
-    const auto inside = hn::IfThenElseZero(hn::Lt(hn::Iota(d, float(j)), hn::Set(d, float(degree))), hn::Set(d, 1.0f));
-    return inside * hn::Load(d, c.real + j) * hn::LoadU(d, c.real + j + 1);
+    return hn::Load(d, c.real + j) * hn::LoadU(d, c.real + j + 1);
 }
 
 struct Vec3 {
@@ -133,7 +135,7 @@ HWY_INLINE void fan_normals(const Corners& c, int degree, int lanes, Normals& n,
     const Lanes d;
     z = z ? z : c.z;
     for (int j = 0; j < lanes; j += int(hn::Lanes(d)))
-        store(cross(corner(c, z, j), corner(c, z, j + 1), whole(c, degree, j)), n, j);
+        store(cross(corner(c, z, j), corner(c, z, j + 1), whole(c, j)), n, j);
     n.before_x = n.x[degree - 1];
     n.before_y = n.y[degree - 1];
     n.before_z = n.z[degree - 1];
@@ -285,7 +287,9 @@ HWY_INLINE void evaluate_lanes(EdgeFan& f, int j)
     // Infinite without a neighbour, and where the numbers were too large to be told: NaN compares as false.
     const auto infinite = hn::Set(d, std::numeric_limits<float>::infinity());
     const auto cost = cost_at(f, h, j, x, y);
-    const auto known = hn::And(hn::Gt(hn::Load(d, f.corners.real + j), hn::Zero(d)), hn::Lt(cost, infinite));
+    const auto inside = hn::Lt(hn::Iota(d, float(j)), hn::Set(d, float(f.degree)));
+    const auto real = hn::And(inside, hn::Gt(hn::Load(d, f.corners.real + j), hn::Zero(d)));
+    const auto known = hn::And(real, hn::Lt(cost, infinite));
     hn::Store(hn::IfThenElse(known, cost, infinite), d, f.cost + j);
     hn::Store(x, d, f.x + j);
     hn::Store(y, d, f.y + j);
@@ -310,6 +314,46 @@ HWY_INLINE void evaluate_edges(EdgeFan& f)
     add_up_channels(f);
     for (int j = 0; j < f.lanes; j += int(hn::Lanes(Lanes())))
         evaluate_lanes(f, j);
+}
+
+/// The first of the edges that cost least.
+HWY_INLINE int cheapest_edge(const EdgeFan& f)
+{
+    const Lanes d;
+    auto least = hn::Load(d, f.cost);
+    for (int j = int(hn::Lanes(d)); j < f.lanes; j += int(hn::Lanes(d)))
+        least = hn::Min(least, hn::Load(d, f.cost + j));
+    least = hn::MinOfLanes(d, least);
+    for (int j = 0; j < f.lanes; j += int(hn::Lanes(d)))
+        if (const auto lane = hn::FindFirstTrue(d, hn::Eq(hn::Load(d, f.cost + j), least)); lane >= 0)
+            return j + int(lane);
+    return 0;
+}
+
+/// Squared volumes, with the cost's floor, that the vertex's own fan would have at the end of an edge where they are least.
+HWY_INLINE float least_own_error(const EdgeFan& f)
+{
+    const Lanes d;
+    const auto infinite = hn::Set(d, std::numeric_limits<float>::infinity());
+    auto least = infinite;
+    for (int j = 0; j < f.lanes; j += int(hn::Lanes(d))) {
+        const Vec3 u = corner(f.corners, f.corners.z, j);
+        const auto length = u.x * u.x + u.y * u.y;
+        auto error = hn::Set(d, kCostFloor * f.sums.z) * length;
+        for (int c = 0; c <= f.more_channels; ++c) {
+            const Channel a = channel(f, c);
+            const auto uz = hn::Load(d, a.z + j), two = hn::Set(d, 2.0f);
+            const auto xx = hn::Set(d, a.sum_xx), xy = hn::Set(d, a.sum_xy), xz = hn::Set(d, a.sum_xz);
+            const auto x = u.x * (xx * u.x + two * (xy * u.y + xz * uz));
+            const auto y = u.y * (hn::Set(d, a.sum_yy) * u.y + two * hn::Set(d, a.sum_yz) * uz);
+            error = error + hn::Set(d, f.weights[c]) * hn::Max(x + y + hn::Set(d, f.sums.zz) * uz * uz, hn::Zero(d));
+        }
+        // Nothing is known where there is no neighbour, or of numbers too large to be told.
+        const auto known = hn::And(hn::Gt(length, hn::Zero(d)), hn::Lt(error, infinite));
+        least = hn::Min(least, hn::IfThenElse(known, error, infinite));
+    }
+    const float found = hn::GetLane(hn::MinOfLanes(d, least));
+    return found < std::numeric_limits<float>::infinity() ? found : 0.0f;
 }
 
 /// Cost of edge j with its optimum moved to (x, y).

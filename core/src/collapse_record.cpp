@@ -2,9 +2,11 @@
 #include "collapse_record.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <numeric>
 
+#include "large_pages.h"
 #include "pixel_stencils.h"
 
 namespace pimg {
@@ -34,38 +36,66 @@ namespace {
 
 /// Indices of `records` by increasing order, ties in the order they were done: a radix sort
 /// on the bits of the floats, which are never negative.
-std::vector<Index> sorted(const std::vector<CollapseRecord>& records)
+std::vector<Index> sorted(const FlatArray<CollapseRecord>& records)
 {
-    constexpr int kBits = 11, kBuckets = 1 << kBits;
-    const auto key = [&](Index i) {
-        std::uint32_t bits;
-        std::memcpy(&bits, &records[i].order, sizeof bits);
-        return bits;
+    constexpr int kBits = 11, kBuckets = 1 << kBits, kPasses = 3;
+    struct Item {
+        std::uint32_t key;
+        Index index;
     };
-    std::vector<Index> from(records.size()), to(records.size());
-    std::iota(from.begin(), from.end(), Index(0));
-    for (int shift = 0; shift < 32; shift += kBits) {
-        std::vector<std::size_t> start(kBuckets + 1, 0);
-        for (Index i : from)
-            ++start[((key(i) >> shift) & (kBuckets - 1)) + 1];
-        std::partial_sum(start.begin(), start.end(), start.begin());
-        for (Index i : from)
-            to[start[(key(i) >> shift) & (kBuckets - 1)]++] = i;
+    const std::size_t n = records.size();
+    std::vector<Item> from(n), to(n);
+    std::vector<std::array<std::size_t, kBuckets + 1>> start(kPasses);
+    const auto bucket = [](Item item, int pass) {
+        return (item.key >> (pass * kBits)) & (kBuckets - 1);
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+        std::memcpy(&from[i].key, &records[i].order, sizeof from[i].key);
+        from[i].index = Index(i);
+        for (int pass = 0; pass < kPasses; ++pass)
+            ++start[std::size_t(pass)][bucket(from[i], pass) + 1];
+    }
+    for (int pass = 0; pass < kPasses; ++pass) {
+        auto& place = start[std::size_t(pass)];
+        std::partial_sum(place.begin(), place.end(), place.begin());
+        for (const Item& item : from)
+            to[place[bucket(item, pass)]++] = item;
         from.swap(to);
     }
-    return from;
+    std::vector<Index> by_order(n);
+    std::transform(from.begin(), from.end(), by_order.begin(), [](const Item& item) { return item.index; });
+    return by_order;
+}
+
+/// Calls visit(i, record) for each split i, coarse to fine. Their order is none in memory: records are fetched ahead.
+template<class Visit>
+void in_batches(const std::vector<Index>& by_order, const ParallelFor& parallel,
+                const FlatArray<CollapseRecord>& records, Visit&& visit)
+{
+    constexpr std::size_t kBatch = 1 << 14, kAhead = 24;
+    const std::size_t n = by_order.size();
+    run(parallel, (n + kBatch - 1) / kBatch, [&](std::size_t batch) {
+        for (std::size_t i = batch * kBatch; i < std::min(n, (batch + 1) * kBatch); ++i) {
+            if (i + kAhead < n) {
+                const CollapseRecord& later = records[by_order[n - 1 - i - kAhead]];
+                __builtin_prefetch(&later);
+                __builtin_prefetch(&later.order);
+            }
+            visit(i, records[by_order[n - 1 - i]]);
+        }
+    });
 }
 
 /// Number of each name: base vertices first, then one per split, coarse to fine.
-std::vector<Index> number_names(std::size_t names, const std::vector<BaseVertex>& base,
-                                const std::vector<CollapseRecord>& records, const std::vector<Index>& by_order)
+std::vector<Index> number_names(std::size_t names, const CollapseSequence& sequence, const std::vector<Index>& by_order,
+                                const ParallelFor& parallel)
 {
     std::vector<Index> number(names, kGhost);
-    Index next = 0;
-    for (const BaseVertex& v : base)
-        number[v.name] = next++;
-    for (std::size_t i = by_order.size(); i-- > 0;)
-        number[records[by_order[i]].u] = next++;
+    for (std::size_t v = 0; v < sequence.base.size(); ++v)
+        number[sequence.base[v].name] = Index(v);
+    const Index base = Index(sequence.base.size());
+    in_batches(by_order, parallel, sequence.records,
+               [&](std::size_t i, const CollapseRecord& r) { number[r.u] = base + Index(i); });
     return number;
 }
 
@@ -87,32 +117,33 @@ void fill_base(const std::vector<BaseVertex>& base, const std::vector<Index>& nu
 
 /// Splits, stencils and costs in coarse-to-fine order; details hold the true intensities of t and u for now.
 void fill_splits(const CollapseSequence& sequence, const std::vector<Index>& by_order, const std::vector<Index>& number,
-                 Hierarchy& h, std::vector<Bands>& bands)
+                 const ParallelFor& parallel, Hierarchy& h, std::vector<Bands>& bands)
 {
     const std::size_t n = sequence.records.size(), more = bands.size() - 1;
-    h.splits.resize(n);
-    h.stencils.resize(n);
-    h.costs.resize(n);
+    resize_on_large_pages(h.splits, n);
+    resize_on_large_pages(h.stencils, n);
+    resize_on_large_pages(h.costs, n);
     for (Bands& b : bands)
-        b.details.resize(n);
-    const auto renumber = [&](Index name) { return name == kGhost ? kGhost : number[name]; };
-    for (std::size_t i = 0; i < n; ++i) {
-        const std::size_t from = by_order[n - 1 - i];
-        const CollapseRecord& r = sequence.records[from];
+        resize_on_large_pages(b.details, n);
+    const auto renumber = [&](Index name) {
+        return name == kGhost ? kGhost : number[name];
+    };
+    in_batches(by_order, parallel, sequence.records, [&](std::size_t i, const CollapseRecord& r) {
         h.splits[i] = { number[r.split.s], renumber(r.split.vl), renumber(r.split.vr), r.split.t, r.split.u };
-        h.stencils[i] = { number[r.stencil.s], number[r.stencil.at], number[r.stencil.bt], number[r.stencil.au],
-                          number[r.stencil.bu], r.stencil.wat, r.stencil.wbt, r.stencil.wau, r.stencil.wbu };
+        h.stencils[i] = { number[r.stencil.s],  number[r.stencil.at], number[r.stencil.bt],
+                          number[r.stencil.au], number[r.stencil.bu], r.stencil.wat,
+                          r.stencil.wbt,        r.stencil.wau,        r.stencil.wbu };
         h.costs[i] = r.order;
         bands[0].details[i] = { r.zt, r.zu };
         for (std::size_t c = 0; c < more; ++c)
-            bands[c + 1].details[i] = sequence.more[from * more + c];
-    }
+            bands[c + 1].details[i] = sequence.more[by_order[n - 1 - i] * more + c];
+    });
 }
 
 /// Pixels of the finest mesh: of vertices by their number, and those between.
 void fill_pixels(const Finest& finest, const std::vector<Index>& number, Hierarchy& h)
 {
-    h.pixels.resize(number.size());
+    resize_on_large_pages(h.pixels, number.size());
     for (Index name = 0; name < Index(number.size()); ++name)
         h.pixels[number[name]] = finest.initial ? finest.initial->pixels[name] : name;
     if (number.size() == h.mesh_pixels())
@@ -137,9 +168,9 @@ Status assemble(int width, int height, const Finest& finest, CollapseSequence&& 
         const CollapseSequence done = std::move(sequence);
         const std::vector<Index> by_order = sorted(done.records);
         const std::size_t names = finest.initial ? finest.initial->pixels.size() : h.mesh_pixels();
-        number = number_names(names, done.base, done.records, by_order);
+        number = number_names(names, done, by_order, finest.parallel);
         fill_base(done.base, number, h, b);
-        fill_splits(done, by_order, number, h, b);
+        fill_splits(done, by_order, number, finest.parallel, h, b);
     }
     fill_pixels(finest, number, h);
     std::vector<Index>().swap(number);

@@ -9,16 +9,18 @@
 #include <pimg/sampling.h>
 #include <pimg/simplify.h>
 
+#include "flat_array.h"
+
 namespace pimg {
 
 /// One edge collapse in the order it was done. Vertices go by name: the mesh pixel, or the vertex of the initial mesh,
 /// they started as; s keeps the name of t.
 struct CollapseRecord {
-    Split split;      ///< s = name of t
-    Index u;          ///< name of u
+    Split split;  ///< s = name of t
+    Index u;      ///< name of u
     Stencil stencil;
-    float zt, zu;     ///< intensities before the collapse
-    float order;      ///< cost, no lower than that of any collapse this one needs
+    float zt, zu;  ///< intensities before the collapse
+    float order;   ///< cost, no lower than that of any collapse this one needs
 };
 
 /// A vertex of the mesh that is left at the end.
@@ -26,15 +28,15 @@ struct BaseVertex {
     Index name;
     Point p;
     std::vector<float> z;  ///< of every guide channel
-    Ring ring;   ///< by name
+    Ring ring;             ///< by name
     int degree;
 };
 
 /// All that is known when nothing is left to collapse.
 struct CollapseSequence {
     int channels = 1;
-    std::vector<CollapseRecord> records;
-    std::vector<Detail> more;      ///< zt and zu of the channels after the first, channels - 1 a record
+    FlatArray<CollapseRecord> records;
+    FlatArray<Detail> more;  ///< zt and zu of the channels after the first, channels - 1 a record
     std::vector<BaseVertex> base;
 };
 

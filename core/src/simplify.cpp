@@ -29,13 +29,14 @@ constexpr float kGuards[2] = { 1e-3f, 1e-5f };
 class Simplifier {
 public:
     Simplifier(WorkingMesh&& mesh, const SimplifyOptions& options)
-        : m_mesh(std::move(mesh)), m_options(options), m_total(m_mesh.alive())
+        : m_mesh(std::move(mesh)),
+          m_options(options),
+          m_total(m_mesh.alive())
     {
         m_sequence.channels = m_mesh.more_channels + 1;
-        m_sequence.records.reserve(m_total);  // growing would need twice the memory for a moment
-        m_stats.peak_bytes = m_mesh.bytes();
-        pimg::run(options.parallel, m_mesh.tiles.size(),
-                  [&](std::size_t i) { add_up_fans(m_mesh, m_mesh.tiles[i].first, m_mesh.tiles[i].last); });
+        m_sequence.records.reserve(
+            m_total);  // takes memory only as it fills; growing would need twice as much for a moment
+        pimg::run(options.parallel, m_mesh.tiles.size(), [&](std::size_t i) { start_tile(m_mesh, m_mesh.tiles[i]); });
     }
 
     /// False when progress asked to stop.
@@ -47,7 +48,8 @@ public:
 private:
     bool sweep(float limit);
     void sweep_color(int color, float limit);
-    void collect(TileOutput& output);
+    void collect(std::size_t n);
+    void measure();
     bool anything_left() const;
     bool report() const;
 
@@ -64,9 +66,10 @@ private:
 bool Simplifier::run()
 {
     for (float guard : kGuards) {
+        if (guard != m_guard)
+            for (Index v = 0; v < Index(m_mesh.nodes.size()); ++v)
+                m_mesh.keys[v] = m_mesh.nodes[v].degree > 0 ? 0.0f : kInfinity;
         m_guard = guard;
-        for (Index v = 0; v < Index(m_mesh.nodes.size()); ++v)
-            m_mesh.keys[v] = m_mesh.nodes[v].degree > 0 ? 0.0f : kInfinity;
         for (float limit = kFirstLimit; anything_left(); limit *= kSweepFactor)
             if (!sweep(std::min(limit, std::numeric_limits<float>::max())))
                 return false;
@@ -82,15 +85,11 @@ bool Simplifier::sweep(float limit)
             return false;
     }
     // What reached beyond its tile's zone, alone and in order.
-    TileOutput output;
     std::vector<Index> deferred;
     deferred.swap(m_deferred);
-    collapse_listed(m_mesh, deferred, { Zone { 0, 0, ~0u, ~0u }, limit, m_guard }, output);
-    collect(output);
-    m_mesh.compact_if_sparse();
-    m_stats.peak_bytes
-        = std::max(m_stats.peak_bytes, m_mesh.bytes() + m_sequence.records.capacity() * sizeof(CollapseRecord)
-                       + m_sequence.more.capacity() * sizeof(Detail));
+    collapse_listed(m_mesh, deferred, { kEverywhere, limit, m_guard }, m_outputs[0]);
+    collect(1);
+    m_mesh.compact_if_sparse(m_options.parallel);
     return true;
 }
 
@@ -104,20 +103,42 @@ void Simplifier::sweep_color(int color, float limit)
     pimg::run(m_options.parallel, tiles.size(), [&](std::size_t i) {
         collapse_tile(m_mesh, *tiles[i], { m_mesh.zone(*tiles[i]), limit, m_guard }, m_outputs[i]);
     });
-    for (std::size_t i = 0; i < tiles.size(); ++i)
-        collect(m_outputs[i]);
+    collect(tiles.size());
 }
 
-void Simplifier::collect(TileOutput& output)
+/// Appends what the first n tiles left, in their order.
+void Simplifier::collect(std::size_t n)
 {
-    m_sequence.records.insert(m_sequence.records.end(), output.records.begin(), output.records.end());
-    m_sequence.more.insert(m_sequence.more.end(), output.more.begin(), output.more.end());
-    m_deferred.insert(m_deferred.end(), output.deferred.begin(), output.deferred.end());
-    m_mesh.add_dead(Index(output.records.size()));
-    m_stats.collapses += output.records.size();
-    m_stats.evaluations += output.evaluations;
-    m_stats.refused += output.refused;
-    output.clear();
+    std::vector<std::size_t> first(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const TileOutput& output = m_outputs[i];
+        first[i] = m_stats.collapses;
+        m_deferred.insert(m_deferred.end(), output.deferred.begin(), output.deferred.end());
+        m_stats.collapses += output.records.size();
+        m_stats.evaluations += output.evaluations;
+        m_stats.refused += output.refused;
+    }
+    const std::size_t added = m_stats.collapses - m_sequence.records.size();
+    m_mesh.add_dead(Index(added));
+    m_sequence.records.extend(added);
+    m_sequence.more.extend(added * std::size_t(m_mesh.more_channels));
+    measure();
+    pimg::run(m_options.parallel, n, [&](std::size_t i) {
+        TileOutput& output = m_outputs[i];
+        std::copy(output.records.begin(), output.records.end(), m_sequence.records.begin() + first[i]);
+        std::copy(output.more.begin(), output.more.end(),
+                  m_sequence.more.begin() + first[i] * std::size_t(m_mesh.more_channels));
+        output.clear();
+    });
+}
+
+void Simplifier::measure()
+{
+    std::size_t bytes =
+        m_mesh.bytes() + m_sequence.records.size() * sizeof(CollapseRecord) + m_sequence.more.size() * sizeof(Detail);
+    for (const TileOutput& output : m_outputs)
+        bytes += output.bytes();
+    m_stats.peak_bytes = std::max(m_stats.peak_bytes, bytes);
 }
 
 bool Simplifier::anything_left() const
@@ -178,7 +199,8 @@ Status simplify(const Guide& guide, const SimplifyOptions& options, Hierarchy& h
     shape.width = guide.width;
     shape.height = guide.height;
     if (options.initial && options.metric != Metric::volume)
-        return Status::failure("an initial mesh needs the metric volume: quadric and exact start from one vertex per pixel");
+        return Status::failure(
+            "an initial mesh needs the metric volume: quadric and exact start from one vertex per pixel");
     if (options.initial && options.initial->twins.size() != options.initial->corners.size())
         return Status::failure("the initial mesh has no twins");
     if (options.initial
@@ -201,7 +223,8 @@ Status simplify(const Guide& guide, const SimplifyOptions& options, Hierarchy& h
         if (stats)
             *stats = counted;
     } else {
-        Simplifier simplifier(options.initial ? WorkingMesh(on_mesh, *options.initial) : WorkingMesh(on_mesh), options);
+        Simplifier simplifier(
+            options.initial ? WorkingMesh(on_mesh, *options.initial) : WorkingMesh(on_mesh, options.parallel), options);
         if (options.initial)
             std::vector<Index>().swap(options.initial->twins);
         if (!simplifier.run())

@@ -14,10 +14,16 @@ namespace pimg {
 /// What a tile's work leaves behind.
 struct TileOutput {
     std::vector<CollapseRecord> records;
-    std::vector<Detail> more;     ///< see CollapseSequence
-    std::vector<Index> deferred;  ///< vertices whose neighbourhood reaches beyond the zone
+    std::vector<Detail> more;       ///< see CollapseSequence
+    std::vector<Index> deferred;    ///< vertices whose neighbourhood reaches beyond the zone
+    std::vector<Index> candidates;  ///< scratch
     std::size_t evaluations = 0, refused = 0;
 
+    std::size_t bytes() const
+    {
+        return records.capacity() * sizeof(CollapseRecord) + more.capacity() * sizeof(Detail)
+            + (deferred.capacity() + candidates.capacity()) * sizeof(Index);
+    }
     void clear()
     {
         records.clear();
@@ -40,7 +46,7 @@ void collapse_tile(WorkingMesh& mesh, const Tile& tile, const TileJob& job, Tile
 /// The same for a list of vertices, in one step.
 void collapse_listed(WorkingMesh& mesh, const std::vector<Index>& vertices, const TileJob& job, TileOutput& output);
 
-/// Fills Node::sums of vertices [first, last).
-void add_up_fans(WorkingMesh& mesh, Index first, Index last);
+/// Fills Node::sums of a tile's vertices, and their first keys.
+void start_tile(WorkingMesh& mesh, const Tile& tile);
 
 }  // namespace pimg

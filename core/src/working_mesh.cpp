@@ -58,17 +58,19 @@ bool falling_diagonal(const Guide& guide, int x, int y)
 
 }  // namespace
 
-WorkingMesh::WorkingMesh(const Guide& guide) : more_channels(int(guide.channels.size()) - 1)
+WorkingMesh::WorkingMesh(const Guide& guide, const ParallelFor& parallel)
+    : more_channels(int(guide.channels.size()) - 1)
 {
     const std::size_t n = std::size_t(guide.width) * std::size_t(guide.height);
     allocate(guide, n);
     std::vector<Index> number_of(n);
     number_vertices(guide.width, guide.height, number_of);
-    build_rings(guide, number_of);
+    run(parallel, std::size_t((guide.height + kTile - 1) / kTile), [&](std::size_t i) {
+        build_rows(guide, int(i) * kTile, std::min(guide.height, int(i + 1) * kTile), number_of);
+    });
 }
 
-WorkingMesh::WorkingMesh(const Guide& guide, const InitialMesh& initial)
-    : more_channels(int(guide.channels.size()) - 1)
+WorkingMesh::WorkingMesh(const Guide& guide, const InitialMesh& initial) : more_channels(int(guide.channels.size()) - 1)
 {
     allocate(guide, initial.pixels.size());
     std::vector<Index> number_of(initial.pixels.size());
@@ -81,9 +83,9 @@ WorkingMesh::WorkingMesh(const Guide& guide, const InitialMesh& initial)
 
 void WorkingMesh::allocate(const Guide& guide, std::size_t vertices)
 {
-    nodes.resize(vertices);
-    rings.resize(vertices);
-    keys.assign(vertices, 0.0f);
+    nodes.extend(vertices);
+    rings.extend(vertices);
+    keys.extend(vertices);
     more.resize(vertices * std::size_t(more_channels));
     for (const GuideChannel& c : guide.channels)
         weights.push_back(c.weight);
@@ -127,11 +129,12 @@ void WorkingMesh::number_vertices(const InitialMesh& initial, std::vector<Index>
     });
 }
 
-/// Fills all of a node but its ring and sums.
+/// Fills all of a node but its sums; its ring is left empty.
 void WorkingMesh::place(Index v, const Guide& guide, Index pixel, Index name)
 {
     const int x = int(pixel % Index(guide.width)), y = int(pixel / Index(guide.width));
-    Node& node = nodes[v];
+    rings[v].v.fill(kNoVertex);
+    Node& node = nodes[v] = Node {};
     node.side = std::uint8_t((x == 0 || x == guide.width - 1 ? kFixedX : kFree)
                              | (y == 0 || y == guide.height - 1 ? kFixedY : kFree));
     node.p = { x * kSubpixels, y * kSubpixels };
@@ -139,13 +142,14 @@ void WorkingMesh::place(Index v, const Guide& guide, Index pixel, Index name)
     for (int c = 0; c < more_channels; ++c)
         more_of(v)[c].value = guide.channels[std::size_t(c) + 1].samples[pixel];
     node.name = name;
-    node.order = 0.0f;
     node.home = { std::uint16_t(x / kBlock), std::uint16_t(y / kBlock) };
 }
 
 void WorkingMesh::build_rings(const InitialMesh& initial, const std::vector<Index>& number_of)
 {
-    const auto around = [](Index e, Index step) { return e - e % 3 + (e + step) % 3; };
+    const auto around = [](Index e, Index step) {
+        return e - e % 3 + (e + step) % 3;
+    };
     for (Index e = 0; e < Index(initial.corners.size()); ++e) {
         const Index v = number_of[initial.corners[e]];
         if (nodes[v].degree > 0 && initial.twins[e] != kGhost)
@@ -168,54 +172,73 @@ void WorkingMesh::build_rings(const InitialMesh& initial, const std::vector<Inde
     }
 }
 
-void WorkingMesh::build_rings(const Guide& guide, const std::vector<Index>& number_of)
+/// One vertex per pixel of rows [first, last).
+void WorkingMesh::build_rows(const Guide& guide, int first, int last, const std::vector<Index>& number_of)
 {
     const int width = guide.width, height = guide.height;
-    // The eight pixels around in ring order, the odd ones being diagonal.
-    constexpr int kStepX[8] = { 1, 1, 0, -1, -1, -1, 0, 1 };
-    constexpr int kStepY[8] = { 0, 1, 1, 1, 0, -1, -1, -1 };
-    for (int y = 0; y < height; ++y)
+    const auto number_at = [&](int x, int y) {
+        const bool inside = x >= 0 && y >= 0 && x < width && y < height;
+        return inside ? number_of[std::size_t(y) * std::size_t(width) + std::size_t(x)] : kGhost;
+    };
+    // Diagonals of the quads above and below row y, from the one left of the picture, where they mean nothing.
+    std::vector<std::uint8_t> above(std::size_t(width) + 1), below(std::size_t(width) + 1);
+    const auto fill_below = [&](int y) {
+        for (int x = 0; y >= 0 && y + 1 < height && x + 1 < width; ++x)
+            below[std::size_t(x) + 1] = falling_diagonal(guide, x, y);
+    };
+    fill_below(first - 1);
+    for (int y = first; y < last; ++y) {
+        above.swap(below);
+        fill_below(y);
         for (int x = 0; x < width; ++x) {
-            const std::size_t pixel = std::size_t(y) * std::size_t(width) + std::size_t(x);
-            Ring& ring = rings[number_of[pixel]];
+            const Index pixel = Index(y) * Index(width) + Index(x), v = number_of[pixel];
+            place(v, guide, pixel, pixel);
+            Index* const ring = rings[v].v.data();
             int degree = 0;
-            for (int k = 0; k < 8; ++k) {
-                const int qx = x + kStepX[k], qy = y + kStepY[k];
-                if (qx < 0 || qy < 0 || qx >= width || qy >= height) {
-                    // The outside shows once, however many steps point there.
-                    if (find(ring, degree, kGhost) < 0)
-                        ring.v[std::size_t(degree++)] = kGhost;
-                    continue;
+            const bool is_inner = x > 0 && y > 0 && x + 1 < width && y + 1 < height;
+            const auto add = [&](int qx, int qy, bool linked) {
+                if (is_inner) {
+                    ring[degree] = number_of[std::size_t(qy) * std::size_t(width) + std::size_t(qx)];
+                    degree += linked;
+                    return;
                 }
-                const bool diagonal = k & 1;
-                if (diagonal
-                    && falling_diagonal(guide, std::min(x, qx), std::min(y, qy)) != (kStepX[k] == kStepY[k]))
-                    continue;
-                ring.v[std::size_t(degree++)] = number_of[std::size_t(qy) * std::size_t(width) + std::size_t(qx)];
-            }
-            place(number_of[pixel], guide, Index(pixel), Index(pixel));
-            nodes[number_of[pixel]].degree = std::uint8_t(degree);
+                // The outside shows once, however many steps point there.
+                const Index q = number_at(qx, qy);
+                if (q == kGhost ? find(rings[v], degree, kGhost) < 0 : linked)
+                    ring[degree++] = q;
+            };
+            const std::size_t left = std::size_t(x), right = left + 1;
+            add(x + 1, y, true);
+            add(x + 1, y + 1, below[right]);
+            add(x, y + 1, true);
+            add(x - 1, y + 1, !below[left]);
+            add(x - 1, y, true);
+            add(x - 1, y - 1, above[left]);
+            add(x, y - 1, true);
+            add(x + 1, y - 1, !above[right]);
+            ring[degree] = kNoVertex;
+            nodes[v].degree = std::uint8_t(degree);
         }
+    }
 }
 
 Zone WorkingMesh::zone(const Tile& tile) const
 {
-    const std::uint32_t n = m_blocks_per_tile, half = n / 2;
-    // At the left and upper side the difference wraps round, and so it does in contains().
-    return { tile.x * n - half, tile.y * n - half, n + 2 * half, n + 2 * half };
+    const std::int32_t n = std::int32_t(m_blocks_per_tile), half = n / 2;
+    const std::int32_t x = std::int32_t(tile.x) * n, y = std::int32_t(tile.y) * n;
+    return { x - half, y - half, x + n + half, y + n + half };
 }
 
 std::size_t WorkingMesh::bytes() const
 {
-    return nodes.capacity() * sizeof(Node) + rings.capacity() * sizeof(Ring) + keys.capacity() * sizeof(float)
-           + more.capacity() * sizeof(ChannelSums);
+    return nodes.size() * (sizeof(Node) + sizeof(Ring) + sizeof(float)) + more.size() * sizeof(ChannelSums);
 }
 
-void WorkingMesh::compact_if_sparse()
+void WorkingMesh::compact_if_sparse(const ParallelFor& parallel)
 {
     if (std::size_t(m_alive) * 2 > nodes.size())
         return;
-    std::vector<Index> number_of(nodes.size(), kGhost);
+    std::vector<Index> number_of(nodes.size());
     Index next = 0;
     for (Tile& tile : tiles) {
         const Index first = next;
@@ -231,19 +254,18 @@ void WorkingMesh::compact_if_sparse()
         tile.first = first;
         tile.last = next;
     }
-    nodes.resize(next);
-    rings.resize(next);
-    keys.resize(next);
+    nodes.shrink(next);
+    rings.shrink(next);
+    keys.shrink(next);
     more.resize(std::size_t(next) * std::size_t(more_channels));
-    nodes.shrink_to_fit();
-    rings.shrink_to_fit();
-    keys.shrink_to_fit();
     more.shrink_to_fit();
-    for (Index v = 0; v < next; ++v)
-        for (int j = 0; j < nodes[v].degree; ++j) {
-            Index& q = rings[v].v[std::size_t(j)];
-            q = q == kGhost ? kGhost : number_of[q];
-        }
+    run(parallel, tiles.size(), [&](std::size_t i) {
+        for (Index v = tiles[i].first; v < tiles[i].last; ++v)
+            for (int j = 0; j < nodes[v].degree; ++j) {
+                Index& q = rings[v].v[std::size_t(j)];
+                q = q == kGhost ? kGhost : number_of[q];
+            }
+    });
     merge_small_tiles();
 }
 

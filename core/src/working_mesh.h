@@ -9,10 +9,10 @@
 
 #include <pimg/ring.h>
 #include <pimg/sampling.h>
-#include <pimg/sampling.h>
 #include <pimg/simplify.h>
 
 #include "collapse_cost.h"
+#include "flat_array.h"
 
 namespace pimg {
 
@@ -22,11 +22,11 @@ struct Home {
 };
 
 struct alignas(64) Node {
-    FanSums sums;         ///< of its fan, origin at the vertex
-    float z;              ///< intensity
-    Point p;              ///< position
-    Index name;           ///< name of the vertex whose number it keeps: its mesh pixel, or its place in the initial mesh
-    float order;          ///< cost of its last collapse, made monotone along dependencies
+    FanSums sums;  ///< of its fan, origin at the vertex
+    float z;       ///< intensity
+    Point p;       ///< position
+    Index name;    ///< name of the vertex whose number it keeps: its mesh pixel, or its place in the initial mesh
+    float order;   ///< cost of its last collapse, made monotone along dependencies
     Home home;
     std::uint8_t degree;  ///< 0: merged into another
     std::uint8_t side;    ///< Side
@@ -42,30 +42,35 @@ struct Tile {
 /// Rectangle of blocks a tile may touch: itself and half of each tile around it. Tiles of one
 /// of the four colours never share a block, so they can be worked on at once.
 struct Zone {
-    std::uint32_t x0, y0, width, height;
-    bool contains(Home h) const { return h.x - x0 < width && h.y - y0 < height; }
+    std::int32_t x0, y0, x1, y1;  ///< half open
 };
+constexpr Zone kEverywhere = { 0, 0, 1 << 16, 1 << 16 };
+
+/// What follows the last neighbour in a ring, up to its end: no vertex, and not the ghost.
+constexpr Index kNoVertex = kGhost - 1;
 
 class WorkingMesh {
 public:
     /// Side of a finest tile in pixels, and of a block.
     static constexpr int kTile = 64, kBlock = kTile / 2;
 
-    std::vector<Node> nodes;
-    std::vector<Ring> rings;
-    std::vector<float> keys;  ///< cost at or below which a vertex is worth a look; infinite: not before its neighbourhood changes
+    FlatArray<Node> nodes;
+    FlatArray<Ring> rings;  ///< padded with kNoVertex
+    FlatArray<float>
+        keys;  ///< cost from which on a vertex is worth a look; infinite: not before its neighbourhood changes
     std::vector<Tile> tiles;
     int more_channels = 0;          ///< guide channels besides the first
     std::vector<ChannelSums> more;  ///< of vertex v: [v * more_channels, (v + 1) * more_channels)
     std::vector<float> weights;     ///< of all channels
 
     /// One vertex per mesh pixel; each quad is cut along the diagonal with the smaller jump. Sums are left to
-    /// add_up_fans().
-    explicit WorkingMesh(const Guide& guide);
+    /// start_tile().
+    WorkingMesh(const Guide& guide, const ParallelFor& parallel);
 
     /// The vertices and triangles of `initial`, which must not exceed kMaxDegree. A vertex takes the samples of its pixel.
     WorkingMesh(const Guide& guide, const InitialMesh& initial);
 
+    const ChannelSums* more_of(Index v) const { return more.data() + std::size_t(v) * std::size_t(more_channels); }
     ChannelSums* more_of(Index v) { return more.data() + std::size_t(v) * std::size_t(more_channels); }
 
     Index alive() const { return m_alive; }
@@ -74,20 +79,27 @@ public:
     std::size_t bytes() const;
 
     /// When half of the numbers are free: renumbers, and merges tiles that have become small.
-    void compact_if_sparse();
+    void compact_if_sparse(const ParallelFor& parallel);
 
+    void prefetch_node(Index v) const { prefetch_at(nodes.data(), v, sizeof(Node)); }
+    void prefetch_ring(Index v) const { prefetch_at(rings.data(), v, sizeof(Ring)); }
     void prefetch(Index v) const
     {
-        __builtin_prefetch(&nodes[v]);
-        __builtin_prefetch(&rings[v]);
+        prefetch_node(v);
+        prefetch_ring(v);
     }
 
 private:
+    /// Of the ghost, too: a wrong address does no harm, and asking costs more.
+    static void prefetch_at(const void* first, Index v, std::size_t size)
+    {
+        __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(first) + v * size));
+    }
     void allocate(const Guide& guide, std::size_t vertices);
     void number_vertices(int width, int height, std::vector<Index>& number_of);
     void number_vertices(const InitialMesh& initial, std::vector<Index>& number_of);
     void place(Index v, const Guide& guide, Index pixel, Index name);
-    void build_rings(const Guide& guide, const std::vector<Index>& number_of);
+    void build_rows(const Guide& guide, int first, int last, const std::vector<Index>& number_of);
     void build_rings(const InitialMesh& initial, const std::vector<Index>& number_of);
     void merge_tiles();
     void merge_small_tiles();
