@@ -14,7 +14,7 @@ readonly packages=(
     libhwy-dev libzstd-dev libboost-dev
     python3-dev python3-zstandard python3-numpy python3-openimageio pybind11-dev
     libgtest-dev libbenchmark-dev libcgal-dev
-    xvfb xauth binutils
+    xvfb xauth binutils groff-base slurm-wlm munge blender-data
 )
 
 usage() {
