@@ -16,7 +16,7 @@ readonly packages=(
     python3-venv python3-matplotlib
     libgegl-dev gegl
     libgtest-dev libbenchmark-dev libcgal-dev
-    xvfb xauth binutils
+    xvfb xauth binutils groff-base slurm-wlm munge blender-data
 )
 
 usage() {

@@ -2,8 +2,11 @@
 #include "colour.h"
 
 #include <algorithm>
+#include <cstdlib>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
+#include <pimg/colour.h>
 
 namespace pimgtool {
 
@@ -19,6 +22,27 @@ bool contains(const std::vector<std::string>& names, const std::string& name)
 
 }  // namespace
 
+bool use_colour_config(const std::string& filename, std::string& error)
+{
+    if (!OIIO::Filesystem::is_regular(filename) && !Strutil::istarts_with(filename, "ocio://")) {
+        error = Strutil::fmt::format("cannot read \"{}\": no such file", filename);
+        return false;
+    }
+    setenv("OCIO", filename.c_str(), 1);
+    return pimg::check_colour_config(error);
+}
+
+bool set_context_variable(const std::string& assignment, std::string& error)
+{
+    const std::size_t equals = assignment.find('=');
+    if (equals == 0 || equals == std::string::npos) {
+        error = Strutil::fmt::format("\"{}\": expected KEY=VALUE", assignment);
+        return false;
+    }
+    setenv(assignment.substr(0, equals).c_str(), assignment.c_str() + equals + 1, 1);
+    return true;
+}
+
 OIIO::ColorConfig& colour_config()
 {
     static OIIO::ColorConfig config;
@@ -32,18 +56,29 @@ bool is_linear_space(const std::string& name)
         || Strutil::istarts_with(name, "lin_") || colour_config().isColorSpaceLinear(name);
 }
 
+bool is_known_space(const std::string& name, std::string& error)
+{
+    const std::vector<std::string> names = colour_config().getColorSpaceNames();
+    if (contains(names, name) || contains(colour_config().getRoles(), name))
+        return true;
+    error = Strutil::fmt::format("no colour space \"{}\": expected one of {}", name, Strutil::join(names, ", "));
+    return false;
+}
+
 std::string configured_space(const std::string& name)
 {
     const OIIO::ColorConfig& config = colour_config();
-    const bool known = contains(config.getColorSpaceNames(), name) || contains(config.getRoles(), name);
-    if (!known && is_linear_space(name) && config.getColorSpaceNameByRole("scene_linear"))
+    std::string error;
+    if (!is_known_space(name, error) && is_linear_space(name) && config.getColorSpaceNameByRole("scene_linear"))
         return "scene_linear";
     return name;
 }
 
-OIIO::ColorProcessorHandle conversion(const std::string& from, const std::string& to, std::string& error)
+OIIO::ColorProcessorHandle conversion(const std::string& from, const std::string& to,
+                                      const ConversionOptions& options, std::string& error)
 {
-    OIIO::ColorProcessorHandle processor = colour_config().createColorProcessor(from, to);
+    OIIO::ColorProcessorHandle processor =
+        colour_config().createColorProcessor(from, to, options.key, options.value);
     if (!processor)
         error = Strutil::fmt::format("no conversion from \"{}\" to \"{}\": expected colour spaces of {}: {}", from, to,
                                      colour_config().getNumDisplays() ? "the configuration $OCIO"
@@ -77,9 +112,10 @@ bool find_display(std::string& display, std::string& view, std::string& error)
 }
 
 OIIO::ColorProcessorHandle display_transform(const std::string& display, const std::string& view,
-                                             const std::string& from, std::string& error)
+                                             const std::string& from, const DisplayOptions& options, std::string& error)
 {
-    OIIO::ColorProcessorHandle processor = colour_config().createDisplayTransform(display, view, from);
+    OIIO::ColorProcessorHandle processor =
+        colour_config().createDisplayTransform(display, view, from, options.looks, options.key, options.value);
     if (!processor)
         error = colour_config().geterror();
     return processor;
@@ -89,6 +125,14 @@ std::string display_space(const std::string& display, const std::string& view)
 {
     const char* name = colour_config().getDisplayViewColorSpaceName(display, view);
     return name && *name != '<' ? name : "";  // not "<USE_DISPLAY_NAME>"
+}
+
+std::string space_of_file(const std::string& filename, const std::string& declared)
+{
+    const bool names_space = contains(colour_config().getColorSpaceNames(), declared);
+    const bool is_usual = is_linear_space(declared) || Strutil::iequals(declared, "sRGB") || declared.empty();
+    const std::string rule = names_space && !is_usual ? "" : pimg::space_by_file_rule(filename);
+    return rule.empty() ? declared : rule;
 }
 
 }  // namespace pimgtool

@@ -9,6 +9,24 @@
 
 namespace pimgtool {
 
+/// Keys of --colorconvert and --tocolorspace.
+struct ConversionOptions {
+    std::string key, value;  ///< of the context
+    bool unpremult = false;
+};
+
+/// Keys of --ociodisplay.
+struct DisplayOptions {
+    std::string from, looks, key, value;
+    bool unpremult = false;
+};
+
+/// Makes $OCIO name that file, and reads it. Before the first use of the configuration.
+bool use_colour_config(const std::string& filename, std::string& error);
+
+/// "KEY=VALUE": sets a variable of the environment, which is where contexts take theirs from.
+bool set_context_variable(const std::string& assignment, std::string& error);
+
 /// The configuration $OCIO names, else OpenImageIO's own few spaces.
 OIIO::ColorConfig& colour_config();
 
@@ -19,18 +37,26 @@ bool is_linear_space(const std::string& name);
 /// it has no such name, its scene-linear role is meant.
 std::string configured_space(const std::string& name);
 
+/// False, with a line saying what there is, for names of spaces the configuration has not.
+bool is_known_space(const std::string& name, std::string& error);
+
 /// The conversion between two spaces; null, with a line saying what there is, if the configuration has none.
-OIIO::ColorProcessorHandle conversion(const std::string& from, const std::string& to, std::string& error);
+OIIO::ColorProcessorHandle conversion(const std::string& from, const std::string& to,
+                                      const ConversionOptions& options, std::string& error);
 
 /// Puts the configuration's names in place of "default". False, with a line saying what there is, for names it has not.
 bool find_display(std::string& display, std::string& view, std::string& error);
 
 /// The transform for a display found so; null, with a line saying why, if there is none.
 OIIO::ColorProcessorHandle display_transform(const std::string& display, const std::string& view,
-                                             const std::string& from, std::string& error);
+                                             const std::string& from, const DisplayOptions& options, std::string& error);
 
 /// The name of the space that transform leads to; empty if the configuration does not say.
 std::string display_space(const std::string& display, const std::string& view);
+
+/// The space of a file: as a rule of the configuration has it if its metadata names no space of the configuration but
+/// at best what the format is usually in; else as the metadata says.
+std::string space_of_file(const std::string& filename, const std::string& declared);
 
 using pimg::declare_space;
 using pimg::srgb_encoded;

@@ -74,29 +74,43 @@ bool take_words(const std::vector<std::string>& arguments, std::size_t& at, Call
     return true;
 }
 
-bool parse_command(const std::vector<std::string>& arguments, std::size_t& at, Program& program, std::string& error)
+/// Reads a command with its keys and words, the last of which `at` is moved to.
+bool read_call(const std::vector<std::string>& arguments, std::size_t& at, Call& call, std::string& error)
 {
     const std::string& text = arguments[at];
     const std::size_t colon = std::min(text.find(':'), text.size());
-    Call call { find_command(text), {}, {} };
+    call.command = find_command(text);
     if (!call.command) {
         error = unknown_command(text.substr(0, colon));
         return false;
     }
-    const auto fail = [&](const std::string& why) {
-        error = format("{}: {}", call.command->name, why);
-        return false;
-    };
     if (!split_keys(text.substr(colon), call, error) || !take_words(arguments, at, call, error))
-        return fail(error);
-    if (!call.keys.empty() && !call.command->keys)
-        return fail(format("unknown option \"{}\": expected none", call.keys.front().first));
-    if (program.pictures < call.command->needs)
-        return fail(program.pictures == 0
-                        ? "no picture to work on: expected an input file before it"
-                        : format("expected {} pictures on the stack, there is one", call.command->needs));
-    if (!call.command->prepare(call, program, error))
-        return fail(error);
+        return false;
+    if (call.keys.empty() || call.command->keys)
+        return true;
+    error = format("unknown option \"{}\": expected none", call.keys.front().first);
+    return false;
+}
+
+bool parse_command(const std::vector<std::string>& arguments, std::size_t& at, Program& program, std::string& error)
+{
+    Call call {};
+    const auto prepare = [&] {
+        if (!read_call(arguments, at, call, error))
+            return false;
+        if (program.pictures < call.command->needs) {
+            error = program.pictures == 0
+                ? "no picture to work on: expected an input file before it"
+                : format("expected {} pictures on the stack, there is one", call.command->needs);
+            return false;
+        }
+        return call.command->prepare(call, program, error);
+    };
+    if (!prepare()) {
+        if (call.command)
+            error = format("{}: {}", call.command->name, error);
+        return false;
+    }
     program.pictures += call.command->adds;
     return true;
 }
@@ -163,6 +177,32 @@ const Command* find_command(const std::string& name)
     return nullptr;
 }
 
+bool take_settings(const std::vector<std::string>& arguments, Program& settings, std::vector<std::string>& rest,
+                   std::string& error)
+{
+    for (std::size_t at = 0; at < arguments.size(); ++at) {
+        const Command* command = find_command(arguments[at]);
+        if (!command || !command->general)
+            rest.push_back(arguments[at]);
+        else if (!parse_command(arguments, at, settings, error))
+            return false;
+    }
+    return true;
+}
+
+bool run_steps(const Program& program, Session& session)
+{
+    for (const Step& step : program.steps) {
+        if (session.measuring && step.writes)
+            continue;
+        if (!step.run(session))
+            return step.label.empty() ? false : session.fail(step.label + ": " + session.error());
+        if (session.measuring && session.measured)
+            break;
+    }
+    return true;
+}
+
 bool parse(const std::vector<std::string>& arguments, Program& program, std::string& error)
 {
     for (std::size_t at = 0; at < arguments.size(); ++at) {
@@ -174,7 +214,8 @@ bool parse(const std::vector<std::string>& arguments, Program& program, std::str
         error = format("{} has no effect here: expected it before the -o it is meant for", program.dangling);
     else if (program.inputs.empty() && !program.informs)
         error = "nothing to do: expected an input file, operations and -o FILE; --help lists them";
-    else if (program.written.empty() && program.stats.empty() && !program.verbose && !program.informs)
+    else if (program.written.empty() && program.stats.empty() && !program.verbose && !program.informs
+             && program.shot.render)
         error = "nothing would be written: expected -o FILE, or --stats";
     return error.empty();
 }

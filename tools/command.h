@@ -27,6 +27,14 @@ struct Call {
 struct Step {
     std::string label;
     std::function<bool(Session&)> run;
+    bool writes = false;  ///< a file: not while a shot is measured
+};
+
+/// Which of a sequence's frames a program is for.
+struct Frame {
+    int number = 0;
+    std::string view;
+    bool numbered = false;  ///< false: there are no frames, perhaps views
 };
 
 /// A checked command line.
@@ -39,6 +47,15 @@ struct Program {
     bool informs = false;                      ///< something is printed that needs no pictures
     std::string stats;                         ///< how to print figures: text, json; empty: not
     bool verbose = false;
+    Frame frame;
+    int compressions = 0;  ///< number of --hdr-compress
+
+    /// General settings.
+    std::vector<int> frames;
+    std::vector<std::string> views;
+    bool parallel_frames = false;
+    std::string shot_file;  ///< empty: none
+    ShotOptions shot;
 };
 
 /// One row of the command table.
@@ -50,6 +67,7 @@ struct Command {
     std::vector<pimg::OptionInfo> (*keys)();  ///< of the :key=value suffix; null for none
     /// Checks all that can be checked now and appends steps or sets a switch of `program`.
     std::function<bool(const Call&, Program&, std::string& error)> prepare;
+    bool general = false;  ///< about all frames; see take_settings()
 };
 
 /// Headed part of the table: --help and the manual show them so.
@@ -66,6 +84,13 @@ const Command* find_command(const std::string& name);
 
 /// Splits ":key=value:key=value". A value in quotation marks may hold colons.
 bool split_keys(const std::string& text, Call& call, std::string& error);
+
+/// Prepares the general settings among the arguments, wherever they stand; `rest` receives the others.
+bool take_settings(const std::vector<std::string>& arguments, Program& settings, std::vector<std::string>& rest,
+                   std::string& error);
+
+/// Runs the steps, or for measuring those up to --hdr-compress but for writing.
+bool run_steps(const Program& program, Session& session);
 
 /// Checks `arguments` and turns them into a program. False with a line in `error` for anything that is wrong.
 bool parse(const std::vector<std::string>& arguments, Program& program, std::string& error);

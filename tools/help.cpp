@@ -9,13 +9,24 @@
 
 #include "command.h"
 
-namespace pimgtool {
+namespace pimg {
 
-namespace {
+template<>
+const std::vector<Option<pimgtool::HelpOptions>>& option_table<pimgtool::HelpOptions>()
+{
+    static const std::vector<Option<pimgtool::HelpOptions>> table = {
+        { &pimgtool::HelpOptions::format,
+          { "format", 0, 0, "", "text|man|bash", "man: the manual page, bash: a script for completion" } },
+    };
+    return table;
+}
+
+}  // namespace pimg
+
+namespace pimgtool {
 
 using OIIO::Strutil::fmt::format;
 
-/// "a to b unit" or "one|two": what a key may be set to.
 std::string values_of(const pimg::OptionInfo& option)
 {
     if (!option.choices.empty())
@@ -25,8 +36,6 @@ std::string values_of(const pimg::OptionInfo& option)
         text += " " + option.unit;
     return text;
 }
-
-}  // namespace
 
 std::string version_text()
 {

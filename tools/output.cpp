@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <mutex>
 
 #include <unistd.h>
 
@@ -31,13 +32,18 @@ using OIIO::TypeDesc;
 namespace Filesystem = OIIO::Filesystem;
 using OIIO::Strutil::fmt::format;
 
-/// The name of the file being written, for the signal handler: interrupted work leaves nothing behind either.
-char unfinished_file[4096] = "";
+/// Names of the files being written, for the signal handler: interrupted work leaves nothing behind either. Frames
+/// that are worked on together write one each.
+constexpr int kUnfinished = 256;
+char unfinished_files[kUnfinished][4096];
+std::mutex unfinished_mutex;
+int unfinished_count = 0;
 
 void remove_unfinished(int signal)
 {
-    if (unfinished_file[0] != '\0')
-        unlink(unfinished_file);
+    for (const char* name : unfinished_files)
+        if (name[0] != '\0')
+            unlink(name);
     _exit(128 + signal);
 }
 
@@ -57,14 +63,23 @@ public:
           m_name(Filesystem::unique_path(
               Filesystem::replace_extension(target, ".%%%%%%%%.temp" + Filesystem::extension(target))))
     {
-        if (m_name.size() < sizeof unfinished_file)
-            std::copy(m_name.c_str(), m_name.c_str() + m_name.size() + 1, unfinished_file);
-        on_interruption(remove_unfinished);
+        const std::lock_guard<std::mutex> lock(unfinished_mutex);
+        for (auto& slot : unfinished_files)
+            if (slot[0] == '\0' && m_name.size() < sizeof slot) {
+                m_slot = slot;
+                std::copy(m_name.begin(), m_name.end(), slot);
+                break;
+            }
+        if (unfinished_count++ == 0)
+            on_interruption(remove_unfinished);
     }
     ~TemporaryFile()
     {
-        on_interruption(SIG_DFL);
-        unfinished_file[0] = '\0';
+        const std::lock_guard<std::mutex> lock(unfinished_mutex);
+        if (--unfinished_count == 0)
+            on_interruption(SIG_DFL);
+        if (m_slot != nullptr)
+            std::fill(m_slot, m_slot + m_name.size(), '\0');
         std::remove(m_name.c_str());
     }
     TemporaryFile(const TemporaryFile&) = delete;
@@ -77,6 +92,7 @@ public:
 
 private:
     std::string m_target, m_name;
+    char* m_slot = nullptr;
 };
 
 /// What `out` stores when asked for `type`: found by writing a small picture, since OpenImageIO offers

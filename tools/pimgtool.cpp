@@ -4,12 +4,15 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <mutex>
 #include <new>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
 
-#include "command.h"
 #include "help.h"
+#include "sequence.h"
 
 namespace {
 
@@ -25,47 +28,100 @@ int report(std::string error)
     return 1;
 }
 
+/// What --help, with its keys, prints for the argument after it, if there is one.
+bool help(const std::string& argument, const std::string& after, std::string& text, std::string& error)
+{
+    Call call { find_command(argument), {}, {} };
+    HelpOptions options;
+    if (!split_keys(argument.substr(std::min(argument.find(':'), argument.size())), call, error))
+        return false;
+    for (const auto& [key, value] : call.keys)
+        if (!pimg::set_option(options, key, value, error))
+            return false;
+    if (options.format != "text") {
+        text = options.format == "man" ? manual_page() : bash_completion();
+        return true;
+    }
+    const Command* topic = after.empty() ? nullptr : find_command(after[0] == '-' ? after : "--" + after);
+    if (!topic && !after.empty()) {
+        error = "no operation \"" + after + "\": --help alone lists them";
+        return false;
+    }
+    text = topic ? help_text(*topic) : help_text();
+    return true;
+}
+
 /// Answers --help and --version wherever they stand. False if neither does.
 bool answer(const std::vector<std::string>& arguments, int& status)
 {
     for (std::size_t i = 0; i < arguments.size(); ++i) {
         const Command* command = find_command(arguments[i]);
         const std::string name = command ? command->name : "";
-        if (name == "--version") {
-            std::fputs(version_text().c_str(), stdout);
-            return true;
-        }
-        if (name != "--help")
+        std::string text, error;
+        if (name == "--version")
+            text = version_text();
+        else if (name != "--help")
             continue;
-        const Command* topic = nullptr;
-        if (i + 1 < arguments.size()) {
-            topic = find_command(arguments[i + 1][0] == '-' ? arguments[i + 1] : "--" + arguments[i + 1]);
-            if (!topic)
-                status = report("--help: no operation \"" + arguments[i + 1] + "\": --help alone lists them");
-        }
-        if (status == 0)
-            std::fputs((topic ? help_text(*topic) : help_text()).c_str(), stdout);
+        else if (!help(arguments[i], i + 1 < arguments.size() ? arguments[i + 1] : "", text, error))
+            status = report("--help: " + error);
+        std::fputs(text.c_str(), stdout);
         return true;
     }
     return false;
 }
 
-int run(const Program& program)
+/// The figures of the shot, measured now if they have to be.
+bool find_shot(const Program& settings, const std::vector<Program>& programs, Stats& stats, Shot& shot,
+               std::string& error)
+{
+    if (OIIO::Filesystem::exists(settings.shot_file) && !settings.shot.update) {
+        if (!shot.read(settings.shot_file, error))
+            return false;
+        for (const Program& program : programs)
+            if (!shot.has(program.frame.number)) {
+                error = OIIO::Strutil::fmt::format("\"{}\" knows nothing of frame {}: expected update=1 to measure anew",
+                                                   settings.shot_file, program.frame.number);
+                return false;
+            }
+        return true;
+    }
+    std::mutex mutex;
+    const auto measure = [&](const Program& program, Session& session) {
+        session.measuring = true;
+        if (!run_steps(program, session))
+            return false;
+        const std::lock_guard<std::mutex> lock(mutex);
+        shot.add(program.frame.number, session.anchors);
+        return true;
+    };
+    return for_each_frame(programs, settings.parallel_frames, stats, measure, error)
+        && shot.write(settings.shot_file, error);
+}
+
+bool run(const Program& settings, const std::vector<Program>& programs, std::string& error)
 {
     if (!std::getenv("OPENIMAGEIO_DEBUG"))
         OIIO::attribute("debug", 0);  // Debian's library talks on standard error otherwise
-    OIIO::attribute("threads", program.threads);
-    OIIO::attribute("exr_threads", program.threads);
-    Session session;
-    session.verbose = program.verbose;
-    for (const std::string& input : program.inputs)
-        session.announce(input);
-    for (const Step& step : program.steps)
-        if (!step.run(session))
-            return report(step.label.empty() ? session.error() : step.label + ": " + session.error());
-    if (!program.stats.empty())
-        std::fputs((program.stats == "json" ? session.stats.json() : session.stats.text()).c_str(), stdout);
-    return 0;
+    OIIO::attribute("threads", programs[0].threads);
+    OIIO::attribute("exr_threads", programs[0].threads);
+    Stats stats;
+    Shot shot;
+    const bool has_shot = !settings.shot_file.empty();
+    if (has_shot && !find_shot(settings, programs, stats, shot, error)) {
+        error = "--shot-stats: " + error;
+        return false;
+    }
+    const auto render = [&](const Program& program, Session& session) {
+        if (has_shot)
+            session.anchors = shot.anchors(program.frame.number, settings.shot);
+        return run_steps(program, session);
+    };
+    const bool renders = !has_shot || settings.shot.render;
+    if (renders && !for_each_frame(programs, settings.parallel_frames, stats, render, error))
+        return false;
+    if (!programs[0].stats.empty())
+        std::fputs((programs[0].stats == "json" ? stats.json() : stats.text()).c_str(), stdout);
+    return true;
 }
 
 }  // namespace
@@ -77,9 +133,11 @@ int main(int argc, char** argv)
         int status = 0;
         if (answer(arguments, status))
             return status;
-        Program program;
+        Program settings;
+        std::vector<Program> programs;
         std::string error;
-        return parse(arguments, program, error) ? run(program) : report(error);
+        const bool done = parse_frames(arguments, settings, programs, error) && run(settings, programs, error);
+        return done ? 0 : report(error);
     } catch (const std::bad_alloc&) {
         return report("not enough memory");
     } catch (const std::exception& e) {

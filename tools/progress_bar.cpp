@@ -10,9 +10,20 @@
 
 namespace pimgtool {
 
+namespace {
+
+bool disabled = false;
+
+}  // namespace
+
+void ProgressBar::disable()
+{
+    disabled = true;
+}
+
 ProgressBar::ProgressBar(std::string label)
     : m_label(std::move(label)),
-      m_terminal(isatty(STDERR_FILENO) != 0),
+      m_terminal(!disabled && isatty(STDERR_FILENO) != 0),
       m_next(Clock::now() + std::chrono::seconds(1))
 {
 }

@@ -15,6 +15,9 @@ public:
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
 
+    /// From now on no bar is shown: several lines at a time would be none.
+    static void disable();
+
     /// Shows the share done, 0..1.
     void show(float done);
 

@@ -6,6 +6,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/strutil.h>
+#include <pimg/imagebufalgo.h>
 #include <pimg/labels.h>
 
 #include "colour.h"
@@ -79,6 +80,12 @@ bool Session::read(const std::string& filename)
     const std::shared_ptr<OIIO::ImageBuf> pixels = read_pixels(filename, stored);
     if (!pixels)
         return false;
+
+    const std::string space = stored.get_string_attribute("oiio:ColorSpace");
+    if (const std::string ruled = space_of_file(filename, space); ruled != space) {
+        declare_space(pixels->specmod(), ruled);
+        declare_space(stored, ruled);
+    }
 
     Picture picture;
     picture.name = filename;
@@ -211,6 +218,22 @@ bool Session::filter(const Filter& run, Meaning meaning)
     say(format("{}: filtered, {:.3f} s", picture.name, timer.seconds()));
     top() = picture;
     return true;
+}
+
+bool Session::hdr_compress(pimg::HdrCompressOptions options)
+{
+    namespace iba = pimg::ImageBufAlgo;
+    if (measuring) {
+        if (!iba::resolve_hdr_compress(*top().pixels, options, m_error, top().hierarchy->options))
+            return false;
+        anchors = { options.dmax, options.key, options.white };
+        return measured = true;
+    }
+    anchors.apply(options);
+    const auto run = [&](OIIO::ImageBuf& dst, const pimg::ProgressiveImage& src) {
+        return iba::hdr_compress(dst, src, options);
+    };
+    return filter(run, Meaning::display_linear);
 }
 
 bool Session::change_pixels(const PixelOperation& run)

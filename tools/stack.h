@@ -14,6 +14,7 @@
 
 #include "output.h"
 #include "pimg_file.h"
+#include "shot.h"
 #include "stats.h"
 
 namespace pimgtool {
@@ -61,6 +62,9 @@ public:
     /// Replaces the top picture by the result of a filter on its hierarchy.
     bool filter(const Filter& run, Meaning meaning = Meaning::as_before);
 
+    /// The filter of that name, with the anchors; or, measuring, only finds them.
+    bool hdr_compress(pimg::HdrCompressOptions options);
+
     /// Replaces the pixels of the top picture by those an operation without hierarchy makes of them.
     bool change_pixels(const PixelOperation& run);
 
@@ -77,6 +81,10 @@ public:
     OutputSettings output;  ///< of the files written from here on
     Stats stats;
     bool verbose = false;
+
+    Anchors anchors;         ///< of the frame, known from the shot or measured
+    bool measuring = false;  ///< the anchors are to be found, nothing else
+    bool measured = false;
 
 private:
     const pimg::ProgressiveImage* hierarchy_of_top();

@@ -73,6 +73,13 @@ void Stats::add(const std::string& name, const pimg::ProgressiveImage& image)
     m_hierarchies.push_back(figures);
 }
 
+void Stats::add(const Stats& frame)
+{
+    for (std::size_t i = 0; i < m_seconds.size(); ++i)
+        m_seconds[i] += frame.m_seconds[i];
+    m_hierarchies.insert(m_hierarchies.end(), frame.m_hierarchies.begin(), frame.m_hierarchies.end());
+}
+
 std::string Stats::text() const
 {
     std::string out;

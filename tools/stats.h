@@ -29,6 +29,7 @@ class Stats {
 public:
     void add(Stage stage, double seconds) { m_seconds[std::size_t(stage)] += seconds; }
     void add(const std::string& name, const pimg::ProgressiveImage& image);
+    void add(const Stats& frame);
 
     std::string text() const;
     std::string json() const;

@@ -27,6 +27,9 @@ using Weights = std::array<float, 3>;
 /// xy of R, G, B and white.
 using Chromaticities = std::array<double, 8>;
 
+constexpr Chromaticities kRec709 { 0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290 };
+constexpr Chromaticities kRec2020 { 0.708, 0.292, 0.170, 0.797, 0.131, 0.046, 0.3127, 0.3290 };
+constexpr Chromaticities kP3 { 0.680, 0.320, 0.265, 0.690, 0.150, 0.060, 0.3127, 0.3290 };
 constexpr Chromaticities kAp0 { 0.7347, 0.2653, 0.0, 1.0, 0.0001, -0.077, 0.32168, 0.33767 };
 constexpr Chromaticities kAp1 { 0.713, 0.293, 0.165, 0.830, 0.128, 0.044, 0.32168, 0.33767 };
 
@@ -126,25 +129,70 @@ bool is_linear(const OCIO::ConstCPUProcessorRcPtr& processor)
     return true;
 }
 
-/// Luminance weights of a linear space of the configuration, through ACES2065-1, whose primaries are known. The
-/// configuration's luma coefficients are a last resort: most state Rec. 709 whatever their primaries.
-Weights weights_of(const OCIO::ConstConfigRcPtr& config, const char* space)
+/// Y of red, green and blue of a space, by a linear conversion to a space where Y is `y` times its components.
+bool weights_through(const OCIO::ConstConfigRcPtr& config, const char* space, const char* known, const Weights& y,
+                     Weights& weights)
 {
-    Weights weights;
-    if (config->hasRole("aces_interchange")) {
-        const auto to_ap0 = cpu(config->getProcessor(space, "aces_interchange"));
-        if (is_linear(to_ap0)) {
-            Weights y;
-            weights_of(kAp0, y);
-            for (std::size_t i = 0; i < 3; ++i) {
-                float unit[3] = { 0.0f, 0.0f, 0.0f };
-                unit[i] = 1.0f;
-                to_ap0->applyRGB(unit);
-                weights[i] = y[0] * unit[0] + y[1] * unit[1] + y[2] * unit[2];
-            }
-            return weights;
+    const OCIO::ConstColorSpaceRcPtr to = config->getColorSpace(known);
+    if (to == nullptr || to->getReferenceSpaceType() != OCIO::REFERENCE_SPACE_SCENE)
+        return false;
+    const auto processor = cpu(config->getProcessor(space, to->getName()));
+    if (!is_linear(processor))
+        return false;
+    for (std::size_t i = 0; i < 3; ++i) {
+        float unit[3] = { 0.0f, 0.0f, 0.0f };
+        unit[i] = 1.0f;
+        processor->applyRGB(unit);
+        weights[i] = y[0] * unit[0] + y[1] * unit[1] + y[2] * unit[2];
+    }
+    const float sum = weights[0] + weights[1] + weights[2];
+    for (float& w : weights)
+        w /= sum;
+    return std::isfinite(weights[0] + weights[1] + weights[2]);
+}
+
+/// Primaries of linear spaces known by name; false for other names.
+bool weights_by_name(const std::string& name, Weights& weights)
+{
+    if (is_one_of(name, { "acescg", "aces - acescg", "lin_ap1", "lin_ap1_scene" }))
+        return weights_of(kAp1, weights);
+    if (is_one_of(name, { "aces2065-1", "aces - aces2065-1", "lin_ap0", "lin_ap0_scene", "aces" }))
+        return weights_of(kAp0, weights);
+    return false;
+}
+
+/// The weights of well-known primaries that these are within a hundredth of, else these: a conversion between whites, which
+/// shifts them a little, is no property of the primaries.
+Weights without_adaptation(const Weights& found)
+{
+    Weights nearest = found;
+    float least = 0.01f;
+    for (const Chromaticities& primaries : { kRec709, kRec2020, kP3, kAp0, kAp1 }) {
+        Weights known;
+        weights_of(primaries, known);
+        float distance = 0.0f;
+        for (std::size_t i = 0; i < 3; ++i)
+            distance = std::max(distance, std::fabs(known[i] - found[i]));
+        if (distance < least) {
+            least = distance;
+            nearest = known;
         }
     }
+    return nearest;
+}
+
+/// Luminance weights of a linear space of the configuration; see Colour::resolve().
+Weights weights_of(const OCIO::ConstConfigRcPtr& config, const char* space)
+{
+    Weights weights, ap0;
+    weights_of(kAp0, ap0);
+    if (weights_through(config, space, "aces_interchange", ap0, weights))
+        return without_adaptation(weights);
+    for (const char* xyz : { "cie_xyz_d65_interchange", "XYZ" })
+        if (weights_through(config, space, xyz, { 0.0f, 1.0f, 0.0f }, weights))
+            return without_adaptation(weights);
+    if (weights_by_name(lower(config->getColorSpace(space)->getName()), weights))
+        return weights;
     double luma[3];
     config->getDefaultLumaCoefs(luma);
     for (std::size_t i = 0; i < 3; ++i)
@@ -202,6 +250,15 @@ struct ColourFinder {
         colour.m_linear_name = config->getColorSpace(role)->getName();
     }
 
+    /// sRGB as the configuration calls it, so that its primaries are converted, too.
+    bool use_config_srgb()
+    {
+        for (const char* name : { "sRGB", "sRGB - Texture", "srgb_texture", "srgb_tx", "Utility - sRGB - Texture" })
+            if (use_config_space(name))
+                return true;
+        return false;
+    }
+
     bool use_config_space(const std::string& name)
     {
         const OCIO::ConstColorSpaceRcPtr space = config == nullptr ? nullptr : config->getColorSpace(name.c_str());
@@ -224,20 +281,20 @@ struct ColourFinder {
     bool use_own_space(const std::string& name)
     {
         const double gamma = gamma_of(name);
-        if (is_one_of(name, { "srgb", "srgb_texture", "srgb_tx", "srgb - texture", "srgb_rec709_scene" }))
+        const bool is_srgb =
+            is_one_of(name, { "srgb", "srgb_texture", "srgb_tx", "srgb - texture", "srgb_rec709_scene" });
+        if (is_srgb && use_config_srgb())
+            return true;
+        if (is_srgb)
             set_decoder(curve(2.4, 0.055));
         else if (is_one_of(name, { "rec709", "rec.709" }))
             set_decoder(curve(1.0 / 0.45, 0.099));
         else if (gamma > 0.0)
             set_decoder(curve(gamma, 0.0));
-        else if (is_one_of(name, { "acescg", "lin_ap1", "lin_ap1_scene" }))
-            weights_of(kAp1, colour.m_weights);
-        else if (is_one_of(name, { "aces2065-1", "lin_ap0", "lin_ap0_scene", "aces" }))
-            weights_of(kAp0, colour.m_weights);
         else if (is_one_of(name, { "linear", "scene_linear" }))
             use_scene_linear();
         else
-            return is_one_of(name, { "lin_rec709", "lin_rec709_scene", "lin_srgb", "raw", "data" });
+            return weights_by_name(name, colour.m_weights) || is_one_of(name, { "lin_rec709", "lin_rec709_scene", "lin_srgb", "raw", "data" });
         return true;
     }
 
@@ -297,6 +354,31 @@ struct ColourFinder {
             use_scene_linear();
     }
 };
+
+std::string space_by_file_rule(const std::string& filename)
+{
+    try {
+        const OCIO::ConstConfigRcPtr config = environment_config();
+        if (config == nullptr || config->filepathOnlyMatchesDefaultRule(filename.c_str()))
+            return {};
+        const OCIO::ConstColorSpaceRcPtr space =
+            config->getColorSpace(config->getColorSpaceFromFilepath(filename.c_str()));
+        return space == nullptr ? "" : space->getName();
+    } catch (const OCIO::Exception&) {
+        return {};
+    }
+}
+
+bool check_colour_config(std::string& error)
+{
+    try {
+        environment_config();
+        return true;
+    } catch (const OCIO::Exception& exception) {
+        error = std::string("$OCIO: ") + exception.what();
+        return false;
+    }
+}
 
 bool Colour::resolve(const OIIO::ImageSpec& spec, const std::string& space, Colour& colour, std::string& error)
 {

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exposure: from log luminance of any range to display luminance, middle grey and white placed.
+// Compression and exposure: from log luminance of any range to display luminance, middle grey and white placed.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include <pimg/options.h>
-#include <pimg/types.h>
 
 namespace pimg {
 
@@ -33,34 +31,16 @@ private:
     float m_white, m_inverse_square;
 };
 
-/// Numbers of pixels by log2 luminance.
-class StopHistogram {
-public:
-    /// Counts `values` / `units` + `offset`, leaving out those whose `guide` is not above `floor`.
-    StopHistogram(const std::vector<float>& values, float units, float offset, const std::vector<float>& guide,
-                  float floor, const ParallelFor& parallel);
+/// What s0, dmax and contrast are where they are 0: dmax a share of the picture's dynamic range, `range` stops, and the
+/// others all from dmax, so that pictures compressed with one dmax are treated alike.
+void find_compression(float range, HdrCompressOptions& options);
 
-    bool empty() const { return m_count == 0; }
-    float quantile(double q) const;  ///< in stops
+/// The dynamic range, in stops, that dmax stands for.
+float range_of(const HdrCompressOptions& options);
 
-    /// Calls body(stops, count) for every bin in use.
-    template<class Body>
-    void for_each(Body&& body) const
-    {
-        for (std::size_t i = 0; i < m_bins.size(); ++i)
-            if (m_bins[i] > 0)
-                body((float(i) + 0.5f) / kBinsPerStop - kRange, m_bins[i]);
-    }
-    std::uint64_t count() const { return m_count; }
-
-private:
-    static constexpr float kBinsPerStop = 32.0f, kRange = 256.0f;
-    std::vector<std::uint32_t> m_bins;
-    std::uint64_t m_count = 0;
-};
-
-/// Fills in contrast, key and white of `options` where they are 0. `histogram` is that of the compressed picture.
-void find_display_fit(const StopHistogram& histogram, HdrCompressOptions& options);
+/// Fills in key and white of otherwise resolved options where they are 0. `overview` holds the log2 luminances of the
+/// compressed overview's lit cells, which are `dark` if there are none.
+void find_exposure(std::vector<float> overview, float dark, HdrCompressOptions& options);
 
 /// Display luminance at which the shoulder of resolved options reaches white.
 float shoulder_white(const HdrCompressOptions& options);

@@ -20,7 +20,6 @@ constexpr float kFloorBelowQuantile = 0.5f;
 constexpr float kFloorBelowMiddle = 0x1p-16f;  ///< ... but no more than 16 stops below the median
 constexpr double kCeilingQuantile = 0.9995;
 constexpr float kCeilingAbove = 0x1p8f;   ///< light sources may be 8 stops above that quantile
-constexpr double kRangeQuantile = 0.001;  ///< left out at each end of the dynamic range
 constexpr double kHotQuantile = 0.999;    ///< a hot pixel is above this quantile ...
 constexpr float kHotRatio = 0x1p10f;      ///< ... and 10 stops above all its neighbours
 
@@ -249,10 +248,8 @@ LogLuminance log_luminance(const OIIO::ImageBuf& picture, const Colour& colour, 
     };
     for_rows(parallel, 0, result.guide.height,
              [&](int y) { to_guide(&samples[std::size_t(y) * std::size_t(width)], std::size_t(width)); });
-    float ends[3] = { floor, histogram.quantile(kRangeQuantile), histogram.quantile(1.0 - kRangeQuantile) };
-    to_guide(ends, 3);
-    result.floor = ends[0];
-    result.range = ends[2] - ends[1];
+    result.floor = floor;
+    to_guide(&result.floor, 1);
     fill_holes(result.guide, holes);
     return result;
 }

@@ -56,7 +56,6 @@ struct LogLuminance {
     Raster guide;
     float reference = 1.0f;  ///< luminance at guide value 0
     float floor = 0.0f;      ///< guide value of everything as dark as black
-    float range = 0.0f;      ///< between the 0.1 % quantiles at both ends: the picture's dynamic range
 };
 
 LogLuminance log_luminance(const OIIO::ImageBuf& picture, const Colour& colour, const ParallelFor& parallel);

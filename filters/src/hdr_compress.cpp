@@ -10,17 +10,55 @@
 #include "contrast_envelope.h"
 #include "display_fit.h"
 #include "image_filter.h"
+#include "overview.h"
 
 namespace pimg {
 namespace ImageBufAlgo {
 
 namespace {
 
-/// The base is scaled so that the picture would fill this many stops; fitting to the display then has
-/// contrast to spare, which goes to the details.
-constexpr float kCompressedStops = 5.0f;
-constexpr float kLeastS0 = 0.05f;
-constexpr float kDmaxOfRange = 0.5f;  ///< largest detail as a share of the dynamic range
+/// log2 of the luminance at guide value 0 after compression: the base is scaled about luminance 1.
+float compressed_reference(const HdrCompressOptions& options, float reference)
+{
+    return options.s0 * std::log2(reference);
+}
+
+DetailGain gain_of(const HdrCompressOptions& options)
+{
+    return { options.s0, options.beta, options.dmax * kUnitsPerStop };
+}
+
+/// Fills in what is 0 and not found from dmax alone.
+void find_exposure(const Overview& overview, float reference, HdrCompressOptions& options)
+{
+    std::vector<float> envelope, values(overview.hierarchy.vertices());
+    if (options.coherence > 0.0f)
+        envelope = contrast_envelope(overview.hierarchy, overview.bands, options.coherence,
+                                     range_of(options) * kUnitsPerStop);
+    compress(overview.hierarchy, overview.bands, gain_of(options), envelope.empty() ? nullptr : &envelope,
+             values.data());
+    const std::vector<float> cells = to_picture(overview.hierarchy, values.data());
+    const float dark = compressed_reference(options, reference);
+    std::vector<float> stops;
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        if (overview.lit[i])
+            stops.push_back(cells[i] / kUnitsPerStop + dark);
+    find_exposure(std::move(stops), dark, options);
+}
+
+/// An Overview is asked for only if there is something to find.
+template<class GetOverview>
+bool resolve(HdrCompressOptions& options, float reference, GetOverview&& get_overview)
+{
+    const bool exposed = !options.fit || (options.key > 0.0f && options.white > 0.0f);
+    const Overview* overview = exposed && options.dmax > 0.0f ? nullptr : get_overview();
+    if (overview == nullptr && !(exposed && options.dmax > 0.0f))
+        return false;
+    find_compression(overview ? overview->range / kUnitsPerStop : 0.0f, options);
+    if (!exposed)
+        find_exposure(*overview, reference, options);
+    return true;
+}
 
 /// The compressed log luminance of every pixel and the options it was made with.
 struct Compressed {
@@ -29,25 +67,6 @@ struct Compressed {
     std::vector<float> samples;
 };
 
-/// log2 of the luminance at guide value 0 after compression: the base is scaled about luminance 1.
-float compressed_reference(const Compressed& c)
-{
-    return c.options.s0 * std::log2(c.luminance->reference);
-}
-
-void find_fit(Compressed& c, const ParallelFor& parallel)
-{
-    const LogLuminance& luminance = *c.luminance;
-    const StopHistogram histogram(c.samples, kUnitsPerStop, compressed_reference(c), luminance.guide.samples,
-                                  luminance.floor, parallel);
-    if (histogram.empty()) {  // only black, or single bright pixels on it
-        const float brightest = std::exp2(compressed_reference(c));
-        c.options.white = c.options.white > 0.0f ? c.options.white : brightest;
-        c.options.key = c.options.key > 0.0f ? c.options.key : kMiddleGrey * brightest;
-    }
-    find_display_fit(histogram, c.options);
-}
-
 bool compress_luminance(ProgressiveImage::Data& data, const ParallelFor& parallel, Compressed& c, std::string& error)
 {
     const LogBands* log = data.log_bands(parallel, error);
@@ -55,21 +74,16 @@ bool compress_luminance(ProgressiveImage::Data& data, const ParallelFor& paralle
         return false;
     HdrCompressOptions& options = c.options;
     c.luminance = &log->luminance;
-    const float stops = std::max(log->luminance.range / kUnitsPerStop, 1e-3f);
-    if (options.s0 <= 0.0f)
-        options.s0 = std::clamp(kCompressedStops / stops, kLeastS0, 1.0f);
-    if (options.dmax <= 0.0f)
-        options.dmax = kDmaxOfRange * stops;
-    const DetailGain gain { options.s0, options.beta, options.dmax * kUnitsPerStop };
+    if (!resolve(options, log->luminance.reference, [&] { return data.overview(parallel, error); }))
+        return false;
+    const DetailGain gain = gain_of(options);
     std::vector<float> values(data.hierarchy.vertices());
+    std::shared_ptr<const std::vector<float>> envelope;
     if (options.coherence > 0.0f)
-        compress(data.hierarchy, *log->bands, gain, data.envelope(options.coherence).get(), values.data());
-    else
-        compress(data.hierarchy, *log->bands, gain, nullptr, values.data());
+        envelope = data.envelope(options.coherence, range_of(options) * kUnitsPerStop);
+    compress(data.hierarchy, *log->bands, gain, envelope.get(), values.data());
     c.samples = to_picture(data.hierarchy, values.data());
     compress_residual(data.hierarchy, *log->bands, gain, options.coherence, log->luminance.guide.samples, c.samples);
-    if (options.fit)
-        find_fit(c, parallel);
     return true;
 }
 
@@ -143,7 +157,7 @@ public:
         // log2 of what to multiply a pixel by = m_slope * compressed sample - guide sample + m_offset.
         const HdrCompressOptions& options = compressed.options;
         const float reference = std::log2(compressed.luminance->reference);
-        const float compressed_ref = compressed_reference(compressed);
+        const float compressed_ref = compressed_reference(options, compressed.luminance->reference);
         if (options.fit) {
             m_slope = options.contrast / kUnitsPerStop;
             m_offset = options.contrast * (compressed_ref - std::log2(options.key)) + std::log2(kMiddleGrey)
@@ -216,11 +230,36 @@ bool resolve_hdr_compress(const ProgressiveImage& src, HdrCompressOptions& optio
         error = src.error().empty() ? "the progressive image has not been built" : src.error();
         return false;
     }
-    Compressed compressed;
-    compressed.options = options;
-    if (!check_options(options, error) || !compress_luminance(*src.data(), pool_loop(nthreads), compressed, error))
+    const ParallelFor parallel = pool_loop(nthreads);
+    HdrCompressOptions resolved = options;
+    const LogBands* log = check_options(options, error) ? src.data()->log_bands(parallel, error) : nullptr;
+    if (log == nullptr
+        || !resolve(resolved, log->luminance.reference, [&] { return src.data()->overview(parallel, error); }))
         return false;
-    options = compressed.options;
+    options = resolved;
+    return true;
+}
+
+bool resolve_hdr_compress(const ImageBuf& src, HdrCompressOptions& options, std::string& error,
+                          const BuildOptions& build, int nthreads)
+{
+    ProgressiveImage::Data data;
+    data.options = build;
+    HdrCompressOptions resolved = options;
+    if (!check_options(options, error) || !data.read(src, error))
+        return false;
+    const ParallelFor parallel = pool_loop(nthreads);
+    repair(data.source, data.colour, parallel);
+    const LogLuminance luminance = log_luminance(data.source, data.colour, parallel);
+    Overview overview;
+    const auto look = [&]() -> const Overview* {
+        const Status status = look_from_afar(luminance, parallel, overview);
+        error = status.error();
+        return status ? &overview : nullptr;
+    };
+    if (!resolve(resolved, luminance.reference, look))
+        return false;
+    options = resolved;
     return true;
 }
 

@@ -307,13 +307,28 @@ const SmoothingData& ProgressiveImage::Data::smoothing(bool log)
     return *cached;
 }
 
-std::shared_ptr<const std::vector<float>> ProgressiveImage::Data::envelope(float coherence)
+const Overview* ProgressiveImage::Data::overview(const ParallelFor& parallel, std::string& error)
+{
+    const LogBands* log = log_bands(parallel, error);
+    std::lock_guard<std::mutex> lock(m_mutex);
+    if (log == nullptr || m_overview != nullptr)
+        return m_overview.get();
+    auto overview = std::make_unique<Overview>();
+    const Status status = look_from_afar(log->luminance, parallel, *overview);
+    error = status.error();
+    if (status)
+        m_overview = std::move(overview);
+    return m_overview.get();
+}
+
+std::shared_ptr<const std::vector<float>> ProgressiveImage::Data::envelope(float coherence, float range)
 {
     std::lock_guard<std::mutex> lock(m_mutex);
-    if (m_envelope == nullptr || m_envelope_coherence != coherence) {
+    if (m_envelope == nullptr || m_envelope_coherence != coherence || m_envelope_range != range) {
         m_envelope = std::make_shared<const std::vector<float>>(
-            contrast_envelope(hierarchy, *m_log->bands, coherence, m_log->luminance.range));
+            contrast_envelope(hierarchy, *m_log->bands, coherence, range));
         m_envelope_coherence = coherence;
+        m_envelope_range = range;
     }
     return m_envelope;
 }

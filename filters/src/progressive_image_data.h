@@ -12,6 +12,7 @@
 #include <pimg/sampling.h>
 
 #include "guide.h"
+#include "overview.h"
 #include "smoothing_data.h"
 
 namespace pimg {
@@ -46,8 +47,11 @@ struct ProgressiveImage::Data {
     /// Likewise; `log`: of the logarithms of the channels.
     const SmoothingData& smoothing(bool log);
 
-    /// See contrast_envelope(). Kept for the coherence used last.
-    std::shared_ptr<const std::vector<float>> envelope(float coherence);
+    /// What compression and exposure are found from.
+    const Overview* overview(const ParallelFor& parallel, std::string& error);
+
+    /// See contrast_envelope(). Kept for the parameters used last.
+    std::shared_ptr<const std::vector<float>> envelope(float coherence, float range);
 
     /// Merges of the picture's pieces, fit for cuts into `regions` regions. Kept. Null, with an error, like the bands.
     std::shared_ptr<const RegionTree> region_tree(std::size_t regions, const ParallelFor& parallel,
@@ -75,7 +79,8 @@ private:
     float m_guide_scale = 0.0f;                     ///< see StoredGuide; of luma and rgb guides
     bool m_guide_clipped = false;
     Bands m_log_bands;  ///< if they are not the guide's
-    float m_envelope_coherence = -1.0f;
+    std::unique_ptr<Overview> m_overview;
+    float m_envelope_coherence = -1.0f, m_envelope_range = 0.0f;
     std::shared_ptr<const std::vector<float>> m_envelope;
     std::shared_ptr<const RegionTree> m_regions;
 };

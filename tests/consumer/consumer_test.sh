@@ -19,6 +19,9 @@ if grep -rlF "$BUILD" moved/"$LIBDIR"/cmake moved/"$LIBDIR"/pkgconfig moved/incl
     exit 1
 fi
 
+grep -q "^.TH PIMGTOOL" moved/share/man/man1/pimgtool.1
+grep -q "complete -F _pimgtool" moved/share/bash-completion/completions/pimgtool
+
 echo "== find_package"
 "$CMAKE" -S "$here" -B project -G "$GENERATOR" -DCMAKE_PREFIX_PATH="$PWD/moved" >configure.log
 "$CMAKE" --build project >build.log || { cat build.log; exit 1; }

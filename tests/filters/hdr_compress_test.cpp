@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include <OpenImageIO/imagebufalgo.h>
 #include <pimg/imagebufalgo.h>
 
 #include "filters/pictures.h"
@@ -47,6 +48,66 @@ TEST(HdrCompress, ScaleOfTheInputDoesNotMatter)
             sum += std::fabs(l[i] - expected[i]);
         EXPECT_LT(sum / double(l.size()), 0.5) << scale;
     }
+}
+
+/// Half as large, by means of light.
+ImageBuf reduced(const ImageBuf& src)
+{
+    ImageBuf dst = picture(src.spec().width / 2, src.spec().height / 2, 3, OIIO::TypeFloat);
+    const std::vector<float> p = pixels(src);
+    const std::size_t row = std::size_t(src.spec().width) * 3;
+    std::vector<float> mean(std::size_t(dst.spec().image_pixels()) * 3);
+    for (std::size_t y = 0, to = 0; y < std::size_t(dst.spec().height); ++y)
+        for (std::size_t x = 0; x < std::size_t(dst.spec().width); ++x)
+            for (std::size_t c = 0; c < 3; ++c, ++to) {
+                const float* from = &p[2 * y * row + 6 * x + c];
+                mean[to] = 0.25f * (from[0] + from[3] + from[row] + from[row + 3]);
+            }
+    dst.set_pixels(dst.roi(), OIIO::TypeFloat, mean.data());
+    return dst;
+}
+
+double mean_difference(const ImageBuf& a, const ImageBuf& b)
+{
+    const std::vector<float> l = lightness(a), m = lightness(b);
+    EXPECT_EQ(l.size(), m.size());
+    double sum = 0;
+    for (std::size_t i = 0; i < l.size(); ++i)
+        sum += std::fabs(l[i] - m[i]);
+    return sum / double(l.size());
+}
+
+/// A preview shows what the final picture will look like.
+TEST(HdrCompress, ResolutionDoesNotMatter)
+{
+    const ImageBuf full = hdr_scene(448, 320), half = reduced(full), quarter = reduced(half);
+    const ImageBuf expected = reduced(compressed(full));
+    EXPECT_LT(mean_difference(compressed(half), expected), 0.5);
+    EXPECT_LT(mean_difference(compressed(quarter), reduced(expected)), 1.0);
+}
+
+/// With dmax, key and white given, nothing of the picture decides how its parts are shown: tiles, pans, windows.
+TEST(HdrCompress, AnchorsFixACrop)
+{
+    const ImageBuf src = hdr_scene(320, 240);
+    HdrCompressOptions found;
+    std::string error;
+    ASSERT_TRUE(ImageBufAlgo::resolve_hdr_compress(src, found, error)) << error;
+    HdrCompressOptions anchors;
+    anchors.dmax = found.dmax;
+    anchors.key = found.key;
+    anchors.white = found.white;
+    const OIIO::ROI all = src.roi();
+    const OIIO::ROI window(all.xbegin + 40, all.xend - 40, all.ybegin + 30, all.yend - 30, 0, 1, 0, 3);
+    const ImageBuf crop = OIIO::ImageBufAlgo::cut(src, window);
+    const ImageBuf expected = OIIO::ImageBufAlgo::cut(compressed(src), window);
+    EXPECT_LT(mean_difference(compressed(crop, anchors), expected), 0.5);
+    // Left alone, the crop is exposed for itself.
+    EXPECT_GT(mean_difference(compressed(crop), expected), 0.5);
+    HdrCompressOptions again = anchors;
+    ASSERT_TRUE(ImageBufAlgo::resolve_hdr_compress(crop, again, error)) << error;
+    EXPECT_EQ(again.s0, found.s0);
+    EXPECT_EQ(again.contrast, found.contrast);
 }
 
 /// Eq. (2) as printed, on a picture of one split's worth of structure: with coherence = 0, s0 scales base and details
@@ -203,6 +264,10 @@ TEST(HdrCompress, ResolvedOptionsRepeatTheResult)
     ASSERT_TRUE(ImageBufAlgo::resolve_hdr_compress(progressive, options, error)) << error;
     EXPECT_GT(options.s0, 0.0f);
     EXPECT_GT(options.dmax, 0.0f);
+    HdrCompressOptions without_hierarchy;
+    ASSERT_TRUE(ImageBufAlgo::resolve_hdr_compress(src, without_hierarchy, error)) << error;
+    EXPECT_EQ(options.key, without_hierarchy.key);
+    EXPECT_EQ(options.white, without_hierarchy.white);
     ImageBuf a, b;
     EXPECT_FILTER(a, ImageBufAlgo::hdr_compress(a, progressive));
     EXPECT_FILTER(b, ImageBufAlgo::hdr_compress(b, progressive, options));

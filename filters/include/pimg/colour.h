@@ -17,6 +17,13 @@ namespace pimg {
 void log2_in_place(float* values, std::size_t count);
 void exp2_in_place(float* values, std::size_t count);
 
+/// The colour space that a rule of the configuration $OCIO names gives files of that name; empty if only the default
+/// rule would apply, which says nothing of the file, or there is no configuration.
+std::string space_by_file_rule(const std::string& filename);
+
+/// False, with a line saying why, if $OCIO names a configuration that cannot be read.
+bool check_colour_config(std::string& error);
+
 /// The colour of one picture. Immutable; may be shared between threads.
 class Colour {
 public:
@@ -24,7 +31,10 @@ public:
     /// than "linear", the attribute chromaticities of OpenEXR, sRGB for 8-bit samples, and else scene-linear.
     /// Names are looked up in the configuration of $OCIO when that is set, then among the engine's own:
     /// linear, srgb, rec709, gammaX.Y, acescg, aces2065-1 and their usual aliases. Scene-linear is the role of that name in the
-    /// configuration of $OCIO, and Rec. 709 without one.
+    /// configuration of $OCIO, and Rec. 709 without one. The primaries, and with them the weights of luminance, of a space of a
+    /// configuration are found by converting red, green and blue to a space whose primaries are known: the role
+    /// aces_interchange, else a scene-referred role cie_xyz_d65_interchange or space XYZ; else they are known from
+    /// the space's name; else the configuration's luma coefficients are taken, which are Rec. 709 unless it says otherwise.
     /// Fails when `space` is unknown or $OCIO cannot be read.
     static bool resolve(const OIIO::ImageSpec& spec, const std::string& space, Colour& colour, std::string& error);
 

@@ -55,6 +55,9 @@ ImageBuf hdr_compress(const ProgressiveImage& src, const HdrCompressOptions& opt
 /// rendered with those of one frame does not flicker. False, with an error, for bad options.
 bool resolve_hdr_compress(const ProgressiveImage& src, HdrCompressOptions& options, std::string& error,
                           int nthreads = 0);
+/// The same without a hierarchy, which takes little longer than reading the picture. Of `build` only the colour space counts.
+bool resolve_hdr_compress(const ImageBuf& src, HdrCompressOptions& options, std::string& error,
+                          const BuildOptions& build = {}, int nthreads = 0);
 
 /// Smooths texture away and keeps features. By strength (the default): what is small in contrast for its size goes, edges and
 /// thin lines stay; one decision for all channels. strength = 0: the source, bit for bit.

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Commands on channels and colour, spelt as oiiotool spells them.
+#include <cstdlib>
+#include <utility>
+
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/strutil.h>
+
+#include "colour.h"
+#include "rows.h"
+
+namespace pimg {
+
+template<>
+const std::vector<Option<pimgtool::ConversionOptions>>& option_table<pimgtool::ConversionOptions>()
+{
+    using T = pimgtool::ConversionOptions;
+    static const std::vector<Option<T>> table = {
+        { &T::key, { "key", 0, 0, "", "", "variables of the OpenColorIO context to set, with commas between them" } },
+        { &T::value, { "value", 0, 0, "", "", "their values, with commas between them" } },
+        { &T::unpremult, { "unpremult", 0, 0, "", "", "convert colours divided by alpha, and multiply them again" } },
+    };
+    return table;
+}
+
+template<>
+const std::vector<Option<pimgtool::DisplayOptions>>& option_table<pimgtool::DisplayOptions>()
+{
+    using T = pimgtool::DisplayOptions;
+    static const std::vector<Option<T>> table = {
+        { &T::from, { "from", 0, 0, "", "", "space to convert from; empty: the one the picture says it is in" } },
+        { &T::looks, { "looks", 0, 0, "", "", "looks to apply instead of the view's own" } },
+        { &T::key, { "key", 0, 0, "", "", "variables of the OpenColorIO context to set, with commas between them" } },
+        { &T::value, { "value", 0, 0, "", "", "their values, with commas between them" } },
+        { &T::unpremult, { "unpremult", 0, 0, "", "", "convert colours divided by alpha, and multiply them again" } },
+    };
+    return table;
+}
+
+}  // namespace pimg
+
+namespace pimgtool {
+
+namespace {
+
+using OIIO::ImageBuf;
+using OIIO::ImageSpec;
+using OIIO::Strutil::fmt::format;
+
+/// Converts the colours of the top picture, in floating point, so that nothing is rounded before the file is written.
+/// Only colour and alpha are shown to OpenImageIO: 2.4 changes the channels after them, too.
+bool convert_colours(Session& session, const OIIO::ColorProcessorHandle& processor, const std::string& space,
+                     bool unpremult)
+{
+    const bool done = session.change_pixels([&](ImageBuf& dst, const ImageBuf& src) {
+        if (!dst.copy(src, OIIO::TypeFloat))
+            return false;
+        declare_space(dst.specmod(), space);
+        std::vector<int> colours;
+        for (int c = 0; c < std::min(src.nchannels(), 4); ++c)
+            if (c < 3 ? c != src.spec().z_channel : c == src.spec().alpha_channel)
+                colours.push_back(c);
+        const ImageBuf some = OIIO::ImageBufAlgo::channels(dst, int(colours.size()), colours);
+        ImageBuf converted = OIIO::ImageBufAlgo::colorconvert(some, processor.get(), unpremult);
+        if (converted.has_error()) {
+            dst.errorfmt("{}", converted.geterror());
+            return false;
+        }
+        return OIIO::ImageBufAlgo::paste(dst, dst.xbegin(), dst.ybegin(), dst.zbegin(), 0, converted);
+    });
+    if (done)
+        session.top().linear_light = false;  // converted as the user wants it
+    return done;
+}
+
+std::string space_of(const Picture& picture)
+{
+    return configured_space(picture.pixels->spec().get_string_attribute("oiio:ColorSpace", "Linear"));
+}
+
+bool check_colorconvert(const Words& words, const ConversionOptions& options, std::string& error)
+{
+    return bool(conversion(words[0], words[1], options, error));
+}
+
+bool colorconvert(Session& session, const Words& words, const ConversionOptions& options)
+{
+    std::string error;
+    const OIIO::ColorProcessorHandle processor = conversion(words[0], words[1], options, error);
+    return processor ? convert_colours(session, processor, words[1], options.unpremult) : session.fail(error);
+}
+
+bool check_tocolorspace(const Words& words, const ConversionOptions& options, std::string& error)
+{
+    return bool(conversion(configured_space("linear"), words[0], options, error));
+}
+
+bool tocolorspace(Session& session, const Words& words, const ConversionOptions& options)
+{
+    return colorconvert(session, { space_of(session.top()), words[0] }, options);
+}
+
+bool check_ociodisplay(const Words& words, const DisplayOptions& options, std::string& error)
+{
+    std::string display = words[0], view = words[1];
+    return find_display(display, view, error)
+        && (options.from.empty() || is_known_space(options.from, error));
+}
+
+bool ociodisplay(Session& session, const Words& words, const DisplayOptions& options)
+{
+    std::string display = words[0], view = words[1], error;
+    const std::string from = options.from.empty() ? space_of(session.top()) : options.from;
+    OIIO::ColorProcessorHandle processor;
+    if (find_display(display, view, error))
+        processor = display_transform(display, view, from, options, error);
+    return processor ? convert_colours(session, processor, display_space(display, view), options.unpremult)
+                     : session.fail(error);
+}
+
+bool incolorspace(Session& session, const Words& words)
+{
+    const bool done = session.change_pixels([&](ImageBuf& dst, const ImageBuf& src) {
+        if (!dst.copy(src))
+            return false;
+        declare_space(dst.specmod(), words[0]);
+        return true;
+    });
+    Picture& top = session.top();
+    top.linear_light = top.stored.all.is_floating_point() && is_linear_space(words[0]);
+    return done;
+}
+
+/// Division by alpha and back, in floating point.
+template<bool (*Operation)(ImageBuf&, const ImageBuf&, OIIO::ROI, int)>
+bool alpha_operation(Session& session, const Words&)
+{
+    return session.change_pixels([](ImageBuf& dst, const ImageBuf& src) {
+        ImageSpec spec = src.spec();
+        spec.set_format(OIIO::TypeFloat);
+        dst.reset(spec);
+        return Operation(dst, src, {}, 0);
+    });
+}
+
+bool channels(Session& session, const Words& words)
+{
+    const ImageSpec& spec = session.top().pixels->spec();
+    std::vector<int> order;
+    for (const std::string& name : OIIO::Strutil::splits(words[0], ",")) {
+        order.push_back(spec.channelindex(name));
+        if (order.back() < 0)
+            return session.fail(
+                format("no channel \"{}\": expected some of {}", name, OIIO::Strutil::join(spec.channelnames, ", ")));
+    }
+    if (order.empty())
+        return session.fail("\"\": expected names of channels, such as R,G,B");
+    PixelTypes stored = session.top().stored;
+    if (int(stored.per_channel.size()) == spec.nchannels) {
+        const std::vector<OIIO::TypeDesc> before = std::exchange(stored.per_channel, {});
+        for (const int c : order)
+            stored.per_channel.push_back(before[std::size_t(c)]);
+    }
+    const bool done = session.change_pixels([&](ImageBuf& dst, const ImageBuf& src) {
+        return OIIO::ImageBufAlgo::channels(dst, src, int(order.size()), order);
+    });
+    session.top().stored = stored;
+    return done;
+}
+
+bool colour_config_file(const Call& call, Program&, std::string& error)
+{
+    return use_colour_config(call.words[0], error);
+}
+
+bool context_variable(const Call& call, Program&, std::string& error)
+{
+    return set_context_variable(call.words[0], error);
+}
+
+}  // namespace
+
+CommandGroup colour_group()
+{
+    namespace iba = OIIO::ImageBufAlgo;
+    return { "Channels and colour",
+             {
+                 worded("--ch", "NAMES", "keeps the channels named, in that order: R,G,B", channels),
+                 worded("--unpremult", "", "divides colours by alpha", alpha_operation<iba::unpremult>),
+                 worded("--premult", "", "multiplies colours by alpha", alpha_operation<iba::premult>),
+                 worded("--incolorspace", "SPACE", "says which colour space the top picture is in", incolorspace),
+                 worded("--colorconvert", "FROM TO", "converts between colour spaces", colorconvert,
+                        check_colorconvert),
+                 worded("--tocolorspace", "SPACE", "converts from the space the picture says it is in", tocolorspace,
+                        check_tocolorspace),
+                 worded("--ociodisplay", "DISPLAY VIEW", "OpenColorIO's display transform; \"default\" for either",
+                        ociodisplay, check_ociodisplay),
+                 general_setting("--ocio", "CONFIG", "OpenColorIO configuration to use instead of $OCIO",
+                                 colour_config_file),
+                 general_setting("--colorconfig", "CONFIG", "the same, as oiiotool spells it", colour_config_file),
+                 general_setting("--ociokey", "KEY=VALUE", "sets a variable of the configuration's context",
+                                 context_variable),
+             } };
+}
+
+}  // namespace pimgtool

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Commands on files.
+#include <algorithm>
+#include <cstdio>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/strutil.h>
+
+#include "output.h"
+#include "pimg_file.h"
+#include "rows.h"
+
+namespace pimgtool {
+
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+/// -o:profile=compact a.pimg, or the same as -o a.pimg:profile=compact. A file keeps the hierarchy unless told otherwise.
+bool output_file(const Call& call, Program& program, std::string& error)
+{
+    Call keys = call;
+    std::string filename = call.words[0];
+    const std::size_t colon = filename.rfind(".pimg:");
+    if (colon != std::string::npos) {
+        if (!split_keys(filename.substr(colon + 5), keys, error))
+            return false;
+        filename.erase(colon + 5);
+    }
+    pimg::io::WriteOptions options;
+    options.profile = "full";
+    if (!read_keys(keys, options, error))
+        return false;
+    if (!keys.keys.empty() && !has_pimg_extension(filename)) {
+        error = format("{} is for .pimg files, \"{}\" is none", keys.keys[0].first, filename);
+        return false;
+    }
+    if (!can_write(filename, error)) {
+        error = format("cannot write \"{}\": {}", filename, error);
+        return false;
+    }
+    program.written.push_back(filename);
+    program.dangling.clear();
+    program.steps.push_back({ call.command->name, [=](Session& session) {
+                                 return session.write(filename, options);
+                             },
+                              true });
+    return true;
+}
+
+std::vector<pimg::OptionInfo> output_keys()
+{
+    std::vector<pimg::OptionInfo> keys = pimg::describe_options<pimg::io::WriteOptions>();
+    for (pimg::OptionInfo& key : keys)
+        if (key.key == "profile")
+            key.default_value = "full";
+    return keys;
+}
+
+bool info(const Call& call, Program& program, std::string& error)
+{
+    const std::string filename = call.words[0];
+    const bool will_exist = std::count(program.written.begin(), program.written.end(), filename) > 0;
+    if (!will_exist && !OIIO::Filesystem::is_regular(filename)) {
+        error = format("cannot read \"{}\": no such file", filename);
+        return false;
+    }
+    program.informs = true;
+    program.steps.push_back({ call.command->name, [=](Session& session) {
+                                 std::string text;
+                                 if (!describe_file(filename, text))
+                                     return session.fail(text);
+                                 std::fputs(text.c_str(), stdout);
+                                 return true;
+                             } });
+    return true;
+}
+
+bool pixel_type(const Call& call, Program& program, std::string& error)
+{
+    const OIIO::TypeDesc type = output_type(call.words[0]);
+    if (type == OIIO::TypeUnknown) {
+        error = format("\"{}\": expected one of {}", call.words[0], kOutputTypes);
+        return false;
+    }
+    program.dangling = call.command->name;
+    program.steps.push_back({ call.command->name, [=](Session& session) {
+                                 session.output.type = type;
+                                 return true;
+                             } });
+    return true;
+}
+
+bool raw(const Call& call, Program& program, std::string&)
+{
+    program.dangling = call.command->name;
+    program.steps.push_back({ call.command->name, [](Session& session) {
+                                 return session.output.raw = true;
+                             } });
+    return true;
+}
+
+// ---- sequences --------------------------------------------------------------------------------------------
+
+bool frames(const Call& call, Program& settings, std::string& error)
+{
+    const std::string& range = call.words[0];
+    const bool digits = range.find_first_not_of("0123456789-,xy") == range.npos && !range.empty();
+    if (digits && OIIO::Filesystem::enumerate_sequence(range, settings.frames) && !settings.frames.empty())
+        return true;
+    error = format("\"{}\": expected frames such as 1-240, 1-240x2 or 1,5,9-12", range);
+    return false;
+}
+
+bool views(const Call& call, Program& settings, std::string& error)
+{
+    settings.views = OIIO::Strutil::splits(call.words[0], ",");
+    if (std::count(settings.views.begin(), settings.views.end(), "") == 0 && !settings.views.empty())
+        return true;
+    error = format("\"{}\": expected names of views, such as left,right", call.words[0]);
+    return false;
+}
+
+bool parallel_frames(const Call&, Program& settings, std::string&)
+{
+    return settings.parallel_frames = true;
+}
+
+bool shot_stats(const Call& call, Program& settings, std::string& error)
+{
+    settings.shot_file = call.words[0];
+    if (!settings.shot_file.empty() && !OIIO::Filesystem::is_directory(settings.shot_file))
+        return read_keys(call, settings.shot, error);
+    error = format("\"{}\": expected a file's name", settings.shot_file);
+    return false;
+}
+
+}  // namespace
+
+CommandGroup sequence_group()
+{
+    return { "Sequences",
+             {
+                 general_setting("--frames", "RANGE",
+                                 "all of this for every frame: 1-240, 1-240x2, 1,5-7; in names, # is its number as %04d, @ as %d",
+                                 frames),
+                 general_setting("--views", "NAMES",
+                                 "and for every view: left,right; in names, %V is the view and %v its first letter",
+                                 views),
+                 general_setting("--parallel-frames", "", "works on several frames at a time, each with one thread",
+                                 parallel_frames),
+                 general_setting("--shot-stats", "FILE",
+                                 "--hdr-compress exposes the frames alike, as FILE says; measured first if there is no FILE",
+                                 shot_stats, pimg::describe_options<ShotOptions>),
+             } };
+}
+
+CommandGroup output_group()
+{
+    return { "Output",
+             {
+                 { "-o", "FILE", "writes the top picture, which stays on the stack; keys are for .pimg files", 1, 0,
+                   output_keys, output_file },
+                 setting("--info", "FILE", "prints what is in a .pimg file: windows, channels, sizes of its parts", info),
+                 setting("-d", "TYPE",
+                         "pixel type of the files that follow: uint8, uint16, half, float ...; else the input's",
+                         pixel_type),
+                 setting("--raw", "",
+                         "writes the numbers as they are; else linear light is encoded sRGB in files of whole numbers",
+                         raw),
+             } };
+}
+
+}  // namespace pimgtool
