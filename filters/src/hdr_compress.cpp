@@ -26,7 +26,7 @@ constexpr float kDmaxOfRange = 0.5f;  ///< largest detail as a share of the dyna
 struct Compressed {
     HdrCompressOptions options;  ///< resolved
     const LogLuminance* luminance = nullptr;
-    std::vector<float> samples;
+    Scratch samples;
 };
 
 /// log2 of the luminance at guide value 0 after compression: the base is scaled about luminance 1.
@@ -38,7 +38,7 @@ float compressed_reference(const Compressed& c)
 void find_fit(Compressed& c, const ParallelFor& parallel)
 {
     const LogLuminance& luminance = *c.luminance;
-    const StopHistogram histogram(c.samples, kUnitsPerStop, compressed_reference(c), luminance.guide.samples,
+    const StopHistogram histogram(*c.samples, kUnitsPerStop, compressed_reference(c), luminance.guide.samples,
                                   luminance.floor, parallel);
     if (histogram.empty()) {  // only black, or single bright pixels on it
         const float brightest = std::exp2(compressed_reference(c));
@@ -61,13 +61,15 @@ bool compress_luminance(ProgressiveImage::Data& data, const ParallelFor& paralle
     if (options.dmax <= 0.0f)
         options.dmax = kDmaxOfRange * stops;
     const DetailGain gain { options.s0, options.beta, options.dmax * kUnitsPerStop };
-    std::vector<float> values(data.hierarchy.vertices());
+    Scratch scratch(data, data.hierarchy.vertices());
+    std::vector<float>& values = *scratch;
     if (options.coherence > 0.0f)
         compress(data.hierarchy, *log->bands, gain, data.envelope(options.coherence).get(), values.data());
     else
         compress(data.hierarchy, *log->bands, gain, nullptr, values.data());
-    c.samples = to_picture(data.hierarchy, values.data());
-    compress_residual(data.hierarchy, *log->bands, gain, options.coherence, log->luminance.guide.samples, c.samples);
+    scatter(data.hierarchy, values.data(), (*c.samples).data(), parallel);
+    crop_to_picture(data.hierarchy, *c.samples);
+    compress_residual(data.hierarchy, *log->bands, gain, options.coherence, log->luminance.guide.samples, *c.samples);
     if (options.fit)
         find_fit(c, parallel);
     return true;
@@ -163,7 +165,7 @@ public:
         float *rgb = scratch.data(), *scales = rgb + 3 * count;
         linear_pixels(m_data.source, m_data.colour, first, count, rgb);
         const float* in = &m_compressed.luminance->guide.samples[first];
-        const float* out = &m_compressed.samples[first];
+        const float* out = &(*m_compressed.samples)[first];
         for (std::size_t i = 0; i < count; ++i)
             scales[i] = m_slope * out[i] - in[i] * (1.0f / kUnitsPerStop) + m_offset;
         exp2_in_place(scales, count);
@@ -216,8 +218,7 @@ bool resolve_hdr_compress(const ProgressiveImage& src, HdrCompressOptions& optio
         error = src.error().empty() ? "the progressive image has not been built" : src.error();
         return false;
     }
-    Compressed compressed;
-    compressed.options = options;
+    Compressed compressed { options, nullptr, { *src.data(), src.data()->hierarchy.mesh_pixels() } };
     if (!check_options(options, error) || !compress_luminance(*src.data(), pool_loop(nthreads), compressed, error))
         return false;
     options = compressed.options;
@@ -231,8 +232,7 @@ bool hdr_compress(ImageBuf& dst, const ProgressiveImage& src, const HdrCompressO
             return false;
         ProgressiveImage::Data& data = *src.data();
         const ParallelFor parallel = pool_loop(nthreads);
-        Compressed compressed;
-        compressed.options = options;
+        Compressed compressed { options, nullptr, { data, data.hierarchy.mesh_pixels() } };
         std::string error;
         if (!compress_luminance(data, parallel, compressed, error)) {
             dst.errorfmt("{}", error);
