@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "large_pages.h"
-
 namespace pimg {
 
 float Bands::largest_detail() const
@@ -18,8 +16,7 @@ float Bands::largest_detail() const
 
 void values_to_details(const Hierarchy& h, const float* samples, Bands& bands)
 {
-    std::vector<float> values;
-    resize_on_large_pages(values, h.vertices());
+    std::vector<float> values(h.vertices());
     std::vector<Detail>& details = bands.details;
     sweep(h, bands, values.data(), h.levels(), [&](Level i, Detail) {
         const Stencil& k = h.stencils[i];

@@ -6,7 +6,6 @@
 #include <cstring>
 #include <numeric>
 
-#include "large_pages.h"
 #include "pixel_stencils.h"
 
 namespace pimg {
@@ -64,8 +63,7 @@ std::vector<Index> sorted(const FlatArray<CollapseRecord>& records)
             to[place[bucket(item, pass)]++] = item;
         std::swap(from, to);
     }
-    std::vector<Index> by_order;
-    resize_on_large_pages(by_order, n);
+    std::vector<Index> by_order(n);
     std::transform(from.begin(), from.end(), by_order.begin(), [](const Item& item) { return item.index; });
     return by_order;
 }
@@ -104,8 +102,7 @@ void prefetch_entry(const std::vector<Index>& number, Index name)
 std::vector<Index> number_names(std::size_t names, const CollapseSequence& sequence, const std::vector<Index>& by_order,
                                 const ParallelFor& parallel)
 {
-    std::vector<Index> number;
-    resize_on_large_pages(number, names);
+    std::vector<Index> number(names);
     for (std::size_t v = 0; v < sequence.base.size(); ++v)
         number[sequence.base[v].name] = Index(v);
     const Index base = Index(sequence.base.size());
@@ -141,14 +138,14 @@ std::vector<Index> sort_and_allocate(const CollapseSequence& sequence, std::size
         if (task == 0)
             by_order = sorted(sequence.records);
         else if (task == 1)
-            resize_on_large_pages(h.splits, n);
+            h.splits.resize(n);
         else if (task == 2)
-            resize_on_large_pages(h.stencils, n);
+            h.stencils.resize(n);
         else {
-            resize_on_large_pages(h.costs, n);
-            resize_on_large_pages(h.pixels, vertices);
+            h.costs.resize(n);
+            h.pixels.resize(vertices);
             for (Bands& b : bands)
-                resize_on_large_pages(b.details, n);
+                b.details.resize(n);
         }
     });
     return by_order;

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "large_pages.h"
-
 namespace pimg {
 
 namespace {
@@ -65,8 +63,7 @@ WorkingMesh::WorkingMesh(const Guide& guide, const ParallelFor& parallel)
 {
     const std::size_t n = std::size_t(guide.width) * std::size_t(guide.height);
     allocate(guide, n);
-    std::vector<Index> number_of;
-    resize_on_large_pages(number_of, n);
+    std::vector<Index> number_of(n);
     number_vertices(guide.width, guide.height, number_of);
     run(parallel, std::size_t((guide.height + kTile - 1) / kTile), [&](std::size_t i) {
         build_rows(guide, int(i) * kTile, std::min(guide.height, int(i + 1) * kTile), number_of);
@@ -241,8 +238,7 @@ void WorkingMesh::compact_if_sparse(const ParallelFor& parallel)
 {
     if (std::size_t(m_alive) * 2 > nodes.size())
         return;
-    std::vector<Index> number_of;
-    resize_on_large_pages(number_of, nodes.size());
+    std::vector<Index> number_of(nodes.size());
     Index next = 0;
     for (Tile& tile : tiles) {
         const Index first = next;
