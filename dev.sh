@@ -8,7 +8,7 @@ readonly build=build/release
 readonly jobs=2
 
 # Everything comes from Debian 12. openimageio-tools brings oiiotool, without which CMake's OpenImageIO package fails.
-readonly packages=(
+packages=(
     g++ cmake ninja-build pkg-config
     libopenimageio-dev openimageio-tools libopencolorio-dev libimath-dev libopenexr-dev libopencv-dev
     libhwy-dev libzstd-dev libboost-dev
@@ -28,7 +28,8 @@ usage: ./dev.sh COMMAND
   test    setup, build with warnings as errors, run every test
   demo    setup, build, tone-map a real HDR photograph and more, in build/demo
   gallery setup, build, make every figure of the paper and more in docs/gallery (some minutes)
-  bench   setup, build, run the benchmarks; arguments go to pimg_bench, $PIMG_BENCH_PICTURE names a picture
+  bench   setup, build, measure against the peers and print the table of docs/performance.md;
+          $PIMG_BENCH_PICTURE names a picture, which is tone-mapped, too, if it is OpenEXR; arguments go to pimg_bench
   clean   remove build/
   help    this text
 END
@@ -112,13 +113,14 @@ run_gallery() {
 }
 
 run_bench() {
+    packages+=(libmeshoptimizer-dev pfstools pfstmo)
     setup
     say "building the benchmarks in $build"
     mkdir -p build
     configure -DPIMG_BUILD_BENCH=ON
-    compile pimg_bench
-    say "measuring, one thread"
-    "$build/bench/pimg_bench" "$@"
+    compile pimg_bench pimgtool
+    say "measuring"
+    /usr/bin/python3 bench/report.py "$build/bench/pimg_bench" "$build/tools/pimgtool" build/growth.svg "$@"
 }
 
 command=${1:-help}

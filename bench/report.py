@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Measures with pimg_bench, pimgtool and tone mapping programs, all in alternation, and prints Markdown.
 
-    report.py PIMG_BENCH PIMGTOOL HDR_PICTURE [GROWTH.svg]
+    report.py PIMG_BENCH PIMGTOOL GROWTH.svg [ARGUMENT FOR PIMG_BENCH]...
 
-Every figure is the median of five runs, every ratio is of figures of this run.
+Every figure is the median of five runs, every ratio is of figures of this run. Growth over size goes to GROWTH.svg. The
+picture is $PIMG_BENCH_PICTURE; if it is an OpenEXR file it is tone-mapped as well.
 """
 import json
 import os
@@ -31,12 +32,12 @@ RATIOS = [
 GROWTH = [(size, size * size / 2 ** 20) for size in (512, 1024, 2048, 4096)]
 
 
-def run_benchmarks(program):
+def run_benchmarks(program, arguments):
     """Median items per second and counters by name."""
     with tempfile.NamedTemporaryFile(suffix=".json") as out:
         subprocess.run([program, "--benchmark_out=" + out.name, "--benchmark_out_format=json",
                         "--benchmark_min_time=0.01", f"--benchmark_repetitions={RUNS}",
-                        "--benchmark_enable_random_interleaving=true"], check=True, stdout=sys.stderr)
+                        "--benchmark_enable_random_interleaving=true", *arguments], check=True, stdout=sys.stderr)
         runs = json.load(open(out.name))["benchmarks"]
     by_name = {}
     for run in runs:
@@ -95,12 +96,21 @@ def growth_svg(rate):
     return "\n".join(svg + ["</svg>\n"])
 
 
+def print_tone_mapping(pimgtool, picture):
+    print(f"\n| {os.path.basename(picture)}, file to file | CPU seconds |\n|---|---|")
+    with tempfile.TemporaryDirectory() as folder:
+        for name, seconds in tone_mapping(pimgtool, picture, folder):
+            print(f"| {name} | {seconds:.2f} |")
+
+
 def main():
-    program, pimgtool, picture = sys.argv[1:4]
-    rate, runs = run_benchmarks(program)
+    program, pimgtool, growth = sys.argv[1:4]
+    picture = os.environ.get("PIMG_BENCH_PICTURE", "")
+    rate, runs = run_benchmarks(program, sys.argv[4:])
     with open("/proc/cpuinfo") as f:
         model = next((line.split(":")[1].strip() for line in f if line.startswith("model name")), "unknown")
-    print(f"Machine: {model}, {os.cpu_count()} cores. Medians of {RUNS} interleaved runs.\n")
+    print(f"Machine: {model}, {os.cpu_count()} cores. Medians of {RUNS} interleaved runs on "
+          f"{os.path.basename(picture) or 'the synthetic landscape'}.\n")
     print("| ratio | measured | aim |\n|---|---|---|")
     for title, a, b, aim in RATIOS:
         if a in rate and b in rate:
@@ -108,16 +118,12 @@ def main():
     print("\n| | million a second |\n|---|---|")
     for name, value in sorted(rate.items()):
         print(f"| {name} | {value / 1e6:.3f} |")
-    if "build/1024" in runs:
-        print(f"\nBuilding takes {runs['build/1024']['bytes_per_pixel']:.0f} bytes a pixel at its peak; "
-              f"the hierarchy {runs['build/1024']['stored_per_pixel']:.0f}.")
-    with tempfile.TemporaryDirectory() as folder:
-        print(f"\n| {os.path.basename(picture)}, file to file | CPU seconds |\n|---|---|")
-        for name, seconds in tone_mapping(pimgtool, picture, folder):
-            print(f"| {name} | {seconds:.2f} |")
-    if len(sys.argv) > 4:
-        with open(sys.argv[4], "w") as f:
-            f.write(growth_svg(rate))
+    print(f"\nBuilding takes {runs['build/1024']['bytes_per_pixel']:.0f} bytes a pixel at its peak; "
+          f"the hierarchy {runs['build/1024']['stored_per_pixel']:.0f}.")
+    if picture.endswith(".exr"):
+        print_tone_mapping(pimgtool, picture)
+    with open(growth, "w") as f:
+        f.write(growth_svg(rate))
 
 
 main()

@@ -54,39 +54,49 @@ std::vector<float> values_at(const Hierarchy& h, const Bands& bands, Level level
     return values;
 }
 
-Status rebase(Hierarchy& h, std::vector<Bands>& bands, Level level)
+Status rebase(Hierarchy& h, std::vector<Bands>& bands, Level level, const ParallelFor& parallel)
 {
     Mesh mesh;
     const Status status = refine(h, level, mesh);
     if (!status)
         return status;
-    for (Bands& b : bands) {
+    for (Bands& b : bands)
         b.base = values_at(h, b, level);
-        b.details.erase(b.details.begin(), b.details.begin() + level);
-    }
     h.base_triangles = mesh.triangles();
     h.base_points.resize(mesh.size());
     for (Index v = 0; v < mesh.size(); ++v)
         h.base_points[v] = mesh.point(v);
-    h.splits.erase(h.splits.begin(), h.splits.begin() + level);
-    h.stencils.erase(h.stencils.begin(), h.stencils.begin() + level);
-    h.costs.erase(h.costs.begin(), h.costs.begin() + level);
+    const auto forget = [&](auto& of_splits) {
+        of_splits.erase(of_splits.begin(), of_splits.begin() + level);
+    };
+    run(parallel, 3, [&](std::size_t task) {
+        if (task == 0)
+            forget(h.stencils);
+        else if (task == 1)
+            forget(h.splits);
+        else {
+            forget(h.costs);
+            for (Bands& b : bands)
+                forget(b.details);
+        }
+    });
     return {};
 }
 
 void scatter(const Hierarchy& h, const float* values, float* samples, const ParallelFor& parallel)
 {
-    constexpr std::size_t kBatch = 1 << 15;
-    for (Index v = 0; v < h.vertices(); ++v)
-        samples[h.pixels[v]] = values[v];
-    const std::size_t n = h.between.size();
-    run(parallel, (n + kBatch - 1) / kBatch, [&](std::size_t batch) {
-        const std::size_t last = std::min(n, (batch + 1) * kBatch);
-        for (std::size_t i = batch * kBatch; i < last; ++i) {
-            const PixelStencil& k = h.between[i];
-            const float a = samples[k.a];
-            samples[k.pixel] = a + (k.wb * (samples[k.b] - a) + k.wc * (samples[k.c] - a));
-        }
+    const auto in_batches = [&](std::size_t n, const auto& visit) {
+        constexpr std::size_t kBatch = 1 << 15;
+        run(parallel, (n + kBatch - 1) / kBatch, [&](std::size_t batch) {
+            for (std::size_t i = batch * kBatch; i < std::min(n, (batch + 1) * kBatch); ++i)
+                visit(i);
+        });
+    };
+    in_batches(h.vertices(), [&](std::size_t v) { samples[h.pixels[v]] = values[v]; });
+    in_batches(h.between.size(), [&](std::size_t i) {
+        const PixelStencil& k = h.between[i];
+        const float a = samples[k.a];
+        samples[k.pixel] = a + (k.wb * (samples[k.b] - a) + k.wc * (samples[k.c] - a));
     });
 }
 

@@ -6,7 +6,6 @@
 #include <cstring>
 #include <numeric>
 
-#include "large_pages.h"
 #include "pixel_stencils.h"
 
 namespace pimg {
@@ -44,7 +43,9 @@ std::vector<Index> sorted(const FlatArray<CollapseRecord>& records)
         Index index;
     };
     const std::size_t n = records.size();
-    std::vector<Item> from(n), to(n);
+    FlatArray<Item> from, to;
+    from.extend(n);
+    to.extend(n);
     std::vector<std::array<std::size_t, kBuckets + 1>> start(kPasses);
     const auto bucket = [](Item item, int pass) {
         return (item.key >> (pass * kBits)) & (kBuckets - 1);
@@ -60,42 +61,54 @@ std::vector<Index> sorted(const FlatArray<CollapseRecord>& records)
         std::partial_sum(place.begin(), place.end(), place.begin());
         for (const Item& item : from)
             to[place[bucket(item, pass)]++] = item;
-        from.swap(to);
+        std::swap(from, to);
     }
     std::vector<Index> by_order(n);
     std::transform(from.begin(), from.end(), by_order.begin(), [](const Item& item) { return item.index; });
     return by_order;
 }
 
-/// Calls visit(i, record) for each split i, coarse to fine. Their order is none in memory: records are fetched ahead.
-template<class Visit>
+/// Calls visit(i, record) for each split i, coarse to fine. Their order is none in memory: records are fetched ahead, and
+/// then what fetch(record) asks for.
+template<class Fetch, class Visit>
 void in_batches(const std::vector<Index>& by_order, const ParallelFor& parallel,
-                const FlatArray<CollapseRecord>& records, Visit&& visit)
+                const FlatArray<CollapseRecord>& records, Fetch&& fetch, Visit&& visit)
 {
-    constexpr std::size_t kBatch = 1 << 14, kAhead = 24;
+    constexpr std::size_t kBatch = 1 << 14, kAhead = 32;
     const std::size_t n = by_order.size();
     run(parallel, (n + kBatch - 1) / kBatch, [&](std::size_t batch) {
-        for (std::size_t i = batch * kBatch; i < std::min(n, (batch + 1) * kBatch); ++i) {
-            if (i + kAhead < n) {
+        const std::size_t last = std::min(n, (batch + 1) * kBatch);
+        for (std::size_t i = batch * kBatch; i < last; ++i) {
+            if (i + kAhead < last) {
                 const CollapseRecord& later = records[by_order[n - 1 - i - kAhead]];
                 __builtin_prefetch(&later);
                 __builtin_prefetch(&later.order);
             }
+            if (i + kAhead / 2 < last)
+                fetch(records[by_order[n - 1 - i - kAhead / 2]]);
             visit(i, records[by_order[n - 1 - i]]);
         }
     });
+}
+
+/// Asks for the entry of a name; of the ghost, too: a wrong address does no harm.
+void prefetch_entry(const std::vector<Index>& number, Index name)
+{
+    const std::uintptr_t first = reinterpret_cast<std::uintptr_t>(number.data());
+    __builtin_prefetch(reinterpret_cast<const void*>(first + name * sizeof(Index)));
 }
 
 /// Number of each name: base vertices first, then one per split, coarse to fine.
 std::vector<Index> number_names(std::size_t names, const CollapseSequence& sequence, const std::vector<Index>& by_order,
                                 const ParallelFor& parallel)
 {
-    std::vector<Index> number(names, kGhost);
+    std::vector<Index> number(names);
     for (std::size_t v = 0; v < sequence.base.size(); ++v)
         number[sequence.base[v].name] = Index(v);
     const Index base = Index(sequence.base.size());
-    in_batches(by_order, parallel, sequence.records,
-               [&](std::size_t i, const CollapseRecord& r) { number[r.u] = base + Index(i); });
+    in_batches(
+        by_order, parallel, sequence.records, [&](const CollapseRecord& r) { prefetch_entry(number, r.u); },
+        [&](std::size_t i, const CollapseRecord& r) { number[r.u] = base + Index(i); });
     return number;
 }
 
@@ -115,20 +128,43 @@ void fill_base(const std::vector<BaseVertex>& base, const std::vector<Index>& nu
     }
 }
 
+/// Sorts the records while other threads get the memory for the hierarchy, which takes as long.
+std::vector<Index> sort_and_allocate(const CollapseSequence& sequence, std::size_t vertices,
+                                     const ParallelFor& parallel, Hierarchy& h, std::vector<Bands>& bands)
+{
+    const std::size_t n = sequence.records.size();
+    std::vector<Index> by_order;
+    run(parallel, 4, [&](std::size_t task) {
+        if (task == 0)
+            by_order = sorted(sequence.records);
+        else if (task == 1)
+            h.splits.resize(n);
+        else if (task == 2)
+            h.stencils.resize(n);
+        else {
+            h.costs.resize(n);
+            h.pixels.resize(vertices);
+            for (Bands& b : bands)
+                b.details.resize(n);
+        }
+    });
+    return by_order;
+}
+
 /// Splits, stencils and costs in coarse-to-fine order; details hold the true intensities of t and u for now.
 void fill_splits(const CollapseSequence& sequence, const std::vector<Index>& by_order, const std::vector<Index>& number,
                  const ParallelFor& parallel, Hierarchy& h, std::vector<Bands>& bands)
 {
     const std::size_t n = sequence.records.size(), more = bands.size() - 1;
-    resize_on_large_pages(h.splits, n);
-    resize_on_large_pages(h.stencils, n);
-    resize_on_large_pages(h.costs, n);
-    for (Bands& b : bands)
-        resize_on_large_pages(b.details, n);
     const auto renumber = [&](Index name) {
         return name == kGhost ? kGhost : number[name];
     };
-    in_batches(by_order, parallel, sequence.records, [&](std::size_t i, const CollapseRecord& r) {
+    const auto fetch = [&](const CollapseRecord& r) {
+        const Stencil& k = r.stencil;
+        for (Index name : { r.split.s, r.split.vl, r.split.vr, k.at, k.bt, k.au, k.bu })
+            prefetch_entry(number, name);
+    };
+    in_batches(by_order, parallel, sequence.records, fetch, [&](std::size_t i, const CollapseRecord& r) {
         h.splits[i] = { number[r.split.s], renumber(r.split.vl), renumber(r.split.vr), r.split.t, r.split.u };
         h.stencils[i] = { number[r.stencil.s],  number[r.stencil.at], number[r.stencil.bt],
                           number[r.stencil.au], number[r.stencil.bu], r.stencil.wat,
@@ -143,9 +179,11 @@ void fill_splits(const CollapseSequence& sequence, const std::vector<Index>& by_
 /// Pixels of the finest mesh: of vertices by their number, and those between.
 void fill_pixels(const Finest& finest, const std::vector<Index>& number, Hierarchy& h)
 {
-    resize_on_large_pages(h.pixels, number.size());
-    for (Index name = 0; name < Index(number.size()); ++name)
-        h.pixels[number[name]] = finest.initial ? finest.initial->pixels[name] : name;
+    constexpr std::size_t kBatch = 1 << 16;
+    run(finest.parallel, (number.size() + kBatch - 1) / kBatch, [&](std::size_t batch) {
+        for (std::size_t name = batch * kBatch; name < std::min(number.size(), (batch + 1) * kBatch); ++name)
+            h.pixels[number[name]] = finest.initial ? finest.initial->pixels[name] : Index(name);
+    });
     if (number.size() == h.mesh_pixels())
         return;
     std::vector<Triangle> triangles(finest.initial->triangles());
@@ -166,8 +204,8 @@ Status assemble(int width, int height, const Finest& finest, CollapseSequence&& 
     std::vector<Index> number;
     {
         const CollapseSequence done = std::move(sequence);
-        const std::vector<Index> by_order = sorted(done.records);
         const std::size_t names = finest.initial ? finest.initial->pixels.size() : h.mesh_pixels();
+        const std::vector<Index> by_order = sort_and_allocate(done, names, finest.parallel, h, b);
         number = number_names(names, done, by_order, finest.parallel);
         fill_base(done.base, number, h, b);
         fill_splits(done, by_order, number, finest.parallel, h, b);
@@ -177,7 +215,7 @@ Status assemble(int width, int height, const Finest& finest, CollapseSequence&& 
     for (std::size_t c = 0; c < b.size(); ++c)
         values_to_details(h, finest.guide.channels[c].samples, b[c]);
     const Level level = h.level_of_faces(base_faces);
-    Status status = level > 0 ? rebase(h, b, level) : Status();
+    Status status = level > 0 ? rebase(h, b, level, finest.parallel) : Status();
     if (status) {
         hierarchy = std::move(h);
         bands = std::move(b);

@@ -11,8 +11,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "large_pages.h"
-
 namespace pimg {
 
 template<class T>
@@ -81,8 +79,6 @@ private:
         void* const block = std::realloc(m_block, capacity * sizeof(T) + kLine);
         if (!block)
             throw std::bad_alloc();
-        if (capacity > m_capacity)
-            advise_large_pages(block, capacity * sizeof(T) + kLine);
         char* const from = static_cast<char*>(block);
         char* const to = from + (kLine - reinterpret_cast<std::uintptr_t>(block) % kLine) % kLine;
         if (m_size > 0 && to != from + offset)

@@ -64,7 +64,7 @@ bool resolve(HdrCompressOptions& options, float reference, GetOverview&& get_ove
 struct Compressed {
     HdrCompressOptions options;  ///< resolved
     const LogLuminance* luminance = nullptr;
-    std::vector<float> samples;
+    Scratch samples;
 };
 
 bool compress_luminance(ProgressiveImage::Data& data, const ParallelFor& parallel, Compressed& c, std::string& error)
@@ -77,13 +77,15 @@ bool compress_luminance(ProgressiveImage::Data& data, const ParallelFor& paralle
     if (!resolve(options, log->luminance.reference, [&] { return data.overview(parallel, error); }))
         return false;
     const DetailGain gain = gain_of(options);
-    std::vector<float> values(data.hierarchy.vertices());
+    Scratch scratch(data, data.hierarchy.vertices());
+    std::vector<float>& values = *scratch;
     std::shared_ptr<const std::vector<float>> envelope;
     if (options.coherence > 0.0f)
         envelope = data.envelope(options.coherence, range_of(options) * kUnitsPerStop);
     compress(data.hierarchy, *log->bands, gain, envelope.get(), values.data());
-    c.samples = to_picture(data.hierarchy, values.data());
-    compress_residual(data.hierarchy, *log->bands, gain, options.coherence, log->luminance.guide.samples, c.samples);
+    scatter(data.hierarchy, values.data(), (*c.samples).data(), parallel);
+    crop_to_picture(data.hierarchy, *c.samples);
+    compress_residual(data.hierarchy, *log->bands, gain, options.coherence, log->luminance.guide.samples, *c.samples);
     return true;
 }
 
@@ -177,7 +179,7 @@ public:
         float *rgb = scratch.data(), *scales = rgb + 3 * count;
         linear_pixels(m_data.source, m_data.colour, first, count, rgb);
         const float* in = &m_compressed.luminance->guide.samples[first];
-        const float* out = &m_compressed.samples[first];
+        const float* out = &(*m_compressed.samples)[first];
         for (std::size_t i = 0; i < count; ++i)
             scales[i] = m_slope * out[i] - in[i] * (1.0f / kUnitsPerStop) + m_offset;
         exp2_in_place(scales, count);
@@ -270,8 +272,7 @@ bool hdr_compress(ImageBuf& dst, const ProgressiveImage& src, const HdrCompressO
             return false;
         ProgressiveImage::Data& data = *src.data();
         const ParallelFor parallel = pool_loop(nthreads);
-        Compressed compressed;
-        compressed.options = options;
+        Compressed compressed { options, nullptr, { data, data.hierarchy.mesh_pixels() } };
         std::string error;
         if (!compress_luminance(data, parallel, compressed, error)) {
             dst.errorfmt("{}", error);

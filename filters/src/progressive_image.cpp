@@ -333,6 +333,25 @@ std::shared_ptr<const std::vector<float>> ProgressiveImage::Data::envelope(float
     return m_envelope;
 }
 
+std::vector<float> ProgressiveImage::Data::take_scratch()
+{
+    std::lock_guard<std::mutex> lock(m_mutex);
+    std::vector<float> scratch;
+    if (!m_scratch.empty()) {
+        scratch = std::move(m_scratch.back());
+        m_scratch.pop_back();
+    }
+    return scratch;
+}
+
+void ProgressiveImage::Data::keep_scratch(std::vector<float>&& scratch)
+{
+    constexpr std::size_t kKept = 2;
+    std::lock_guard<std::mutex> lock(m_mutex);
+    if (m_scratch.size() < kKept)
+        m_scratch.push_back(std::move(scratch));
+}
+
 std::size_t ProgressiveImage::Data::memory()
 {
     std::lock_guard<std::mutex> lock(m_mutex);
@@ -349,6 +368,8 @@ std::size_t ProgressiveImage::Data::memory()
         total += smoothing != nullptr ? smoothing->source.memory() : 0;
     if (m_regions != nullptr)
         total += m_regions->memory();
+    for (const std::vector<float>& scratch : m_scratch)
+        total += scratch.capacity() * sizeof(float);
     if (m_envelope != nullptr)
         total += m_envelope->capacity() * sizeof(float);
     return total;

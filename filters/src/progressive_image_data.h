@@ -53,6 +53,10 @@ struct ProgressiveImage::Data {
     /// See contrast_envelope(). Kept for the parameters used last.
     std::shared_ptr<const std::vector<float>> envelope(float coherence, float range);
 
+    /// A vector that held a raster before, if one is left: new memory would have to be cleared for every new setting.
+    std::vector<float> take_scratch();
+    void keep_scratch(std::vector<float>&& scratch);
+
     /// Merges of the picture's pieces, fit for cuts into `regions` regions. Kept. Null, with an error, like the bands.
     std::shared_ptr<const RegionTree> region_tree(std::size_t regions, const ParallelFor& parallel,
                                                   std::string& error);
@@ -83,6 +87,26 @@ private:
     float m_envelope_coherence = -1.0f, m_envelope_range = 0.0f;
     std::shared_ptr<const std::vector<float>> m_envelope;
     std::shared_ptr<const RegionTree> m_regions;
+    std::vector<std::vector<float>> m_scratch;
+};
+
+/// `size` floats without a particular value, kept by the image for the next who needs some.
+class Scratch {
+public:
+    Scratch(ProgressiveImage::Data& data, std::size_t size) : m_data(data), m_values(data.take_scratch())
+    {
+        m_values.resize(size);
+    }
+    Scratch(const Scratch&) = delete;
+    Scratch& operator=(const Scratch&) = delete;
+    ~Scratch() { m_data.keep_scratch(std::move(m_values)); }
+
+    std::vector<float>& operator*() { return m_values; }
+    const std::vector<float>& operator*() const { return m_values; }
+
+private:
+    ProgressiveImage::Data& m_data;
+    std::vector<float> m_values;
 };
 
 }  // namespace pimg

@@ -39,7 +39,7 @@ Status analyse(const Hierarchy& hierarchy, const std::vector<const float*>& chan
 std::vector<float> to_mesh_pixels(const Hierarchy& hierarchy, const float* samples);
 
 /// Makes level `level` the base mesh: the splits before it are forgotten.
-Status rebase(Hierarchy& hierarchy, std::vector<Bands>& bands, Level level);
+Status rebase(Hierarchy& hierarchy, std::vector<Bands>& bands, Level level, const ParallelFor& parallel = {});
 
 /// Values of all vertices of level `level`, indexed by vertex number.
 std::vector<float> values_at(const Hierarchy& hierarchy, const Bands& bands, Level level);
