@@ -11,10 +11,10 @@ namespace pimg {
 namespace {
 
 /// The base is scaled so that the picture would fill this many stops; what a display has beyond that goes to the details.
-constexpr float kCompressedStops = 5.0f;
+constexpr float kCompressedStops = 4.6f;
 constexpr float kLeastS0 = 0.05f;
 constexpr float kDmaxOfRange = 0.5f;  ///< largest detail as a share of the dynamic range
-constexpr float kMostContrast = 1.4f;  ///< of what is compressed: 7 stops, those of a good photographic print
+constexpr float kMostContrast = 1.4f;  ///< of what is compressed: 6.4 stops, about those of a good photographic print
 constexpr double kWhiteQuantile = 0.999;
 constexpr double kMeanLuminance = 0.2;  ///< the picture is as light as that on the whole
 

@@ -197,7 +197,7 @@ TEST(Filters, PicturesMayLieInTheImageCache)
     const std::shared_ptr<OIIO::ImageCache> cache(OIIO::ImageCache::create(false),
                                                   [](OIIO::ImageCache* c) { OIIO::ImageCache::destroy(c); });
     for (const auto& [name, filter] : all_filters<ImageBuf>()) {
-        const ImageBuf cached("cached.tif", 0, 0, cache.get());
+        ImageBuf cached("cached.tif", 0, 0, cache.get());
         ImageBuf direct, from_cache, into_cached("cached.tif", 0, 0, cache.get());
         ASSERT_TRUE(cached.init_spec("cached.tif", 0, 0));
         ASSERT_EQ(cached.storage(), ImageBuf::IMAGECACHE);
