@@ -188,7 +188,7 @@ TEST(Plugin, WritesTheSameBytesEveryWay)
         picture.spec.attribute("pimg:profile", profile);
         write(picture, "bytes.pimg");
         const std::vector<unsigned char> file = bytes_of("bytes.pimg");
-        for (const int threads : { 0, 1, 2, 3, 8, 16 })
+        for (const int threads : { 0, 1, 3, 16 })
             EXPECT_TRUE(written(picture, threads) == file) << threads;
         OIIO::ImageBuf buffer(picture.spec);
         buffer.set_pixels(buffer.roi(), TypeDesc::HALF, picture.pixels.data());
