@@ -13,7 +13,7 @@ packages=(
     libopenimageio-dev openimageio-tools libopencolorio-dev libimath-dev libopenexr-dev libopencv-dev
     libhwy-dev libzstd-dev libboost-dev
     python3-dev python3-zstandard python3-numpy python3-openimageio pybind11-dev
-    python3-venv python3-matplotlib
+    python3-venv python3-matplotlib python3-markdown
     libgegl-dev gegl
     libgtest-dev libbenchmark-dev libcgal-dev
     xvfb xauth binutils groff-base slurm-wlm munge blender-data
@@ -28,6 +28,7 @@ usage: ./dev.sh COMMAND
   test    setup, build with warnings as errors, run every test
   demo    setup, build, tone-map a real HDR photograph and more, in build/demo
   gallery setup, build, make every figure of the paper and more in docs/gallery (some minutes)
+  docs    setup, make the documentation site in build/docs
   bench   setup, build, measure against the peers and print the table of docs/performance.md;
           $PIMG_BENCH_PICTURE names a picture, which is tone-mapped, too, if it is OpenEXR; arguments go to pimg_bench
   clean   remove build/
@@ -112,6 +113,12 @@ run_gallery() {
     echo "docs/gallery/index.html"
 }
 
+run_docs() {
+    setup
+    /usr/bin/python3 docs/make_site.py build/docs
+    echo "build/docs/index.html"
+}
+
 run_bench() {
     packages+=(libmeshoptimizer-dev pfstools pfstmo)
     setup
@@ -131,6 +138,7 @@ build) run_build ;;
 test) run_test ;;
 demo) run_demo ;;
 gallery) run_gallery ;;
+docs) run_docs ;;
 bench) run_bench "$@" ;;
 clean) rm -rf build ;;
 help | -h | --help) usage ;;
