@@ -51,7 +51,6 @@ def make_pictures():
     light = scene() * grain
     write("in.exr", light, "half")
     write("in.png", srgb(light), "uint8")
-    write("rgba.exr", np.concatenate([light, np.ones((HEIGHT, WIDTH, 1), np.float32)], axis=2), "half")
     for name, seconds in (("dark.png", 1 / 30), ("middle.png", 1 / 4), ("bright.png", 2)):
         write(name, srgb(light * seconds), "uint8")
     for frame in range(1, 5):
