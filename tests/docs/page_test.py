@@ -54,13 +54,30 @@ def make_pictures():
     for name, seconds in (("dark.png", 1 / 30), ("middle.png", 1 / 4), ("bright.png", 2)):
         write(name, srgb(light * seconds), "uint8")
     for frame in range(1, 5):
-        write(f"plate.{frame:04}.exr", scene(2 * frame) * grain, "half")
+        for view, shift in (("", 0), ("_left", -1), ("_right", 1)):
+            write(f"plate{view}.{frame:04}.exr", scene(2 * frame + shift) * grain, "half")
+    with open("show.ocio", "w", encoding="utf-8") as file:
+        file.write(CONFIGURATION)
+
+
+CONFIGURATION = """ocio_profile_version: 2
+environment: {SHOT: sh000}
+roles: {default: scene, scene_linear: scene}
+displays:
+  ACES:
+    - !<View> {name: SDR Video, colorspace: display}
+colorspaces:
+  - !<ColorSpace> {name: scene}
+  - !<ColorSpace> {name: ACEScg, to_scene_reference: !<MatrixTransform> {matrix: [1.7, -0.6, -0.1, 0, -0.1, 1.1, 0, 0, 0, -0.1, 1.1, 0, 0, 0, 0, 1]}}
+  - !<ColorSpace> {name: display, to_scene_reference: !<ExponentTransform> {value: [2.4, 2.4, 2.4, 1]}}
+"""
 
 
 def run_shell(code):
     env = dict(os.environ)
     folders = [os.path.dirname(env[name]) for name in ("PIMGTOOL", "OIIOTOOL")]
     env["PATH"] = os.pathsep.join(folders + [env["PATH"]])
+    env["OCIO"] = os.path.abspath("show.ocio")
     env["OIIO_LIBRARY_PATH"] = env["OPENIMAGEIO_PLUGIN_PATH"] = env["PIMG_PLUGIN"]
     code = re.sub(r"/usr/local/lib/pimg/oiio-[0-9.]+", env["PIMG_PLUGIN"], code)
     return subprocess.run(["bash", "-euo", "pipefail", "-c", code], env=env, stdin=subprocess.DEVNULL).returncode

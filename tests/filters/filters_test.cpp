@@ -193,13 +193,13 @@ TEST(Filters, TheDestinationMayBeTheSource)
 TEST(Filters, PicturesMayLieInTheImageCache)
 {
     const ImageBuf src = hdr_scene();
-    ASSERT_TRUE(src.write("cached.tif")) << src.geterror();
+    ASSERT_TRUE(src.write("cached.exr")) << src.geterror();
     const std::shared_ptr<OIIO::ImageCache> cache(OIIO::ImageCache::create(false),
                                                   [](OIIO::ImageCache* c) { OIIO::ImageCache::destroy(c); });
     for (const auto& [name, filter] : all_filters<ImageBuf>()) {
-        ImageBuf cached("cached.tif", 0, 0, cache.get());
-        ImageBuf direct, from_cache, into_cached("cached.tif", 0, 0, cache.get());
-        ASSERT_TRUE(cached.init_spec("cached.tif", 0, 0));
+        ImageBuf cached("cached.exr", 0, 0, cache.get());
+        ImageBuf direct, from_cache, into_cached("cached.exr", 0, 0, cache.get());
+        ASSERT_TRUE(cached.init_spec("cached.exr", 0, 0));
         ASSERT_EQ(cached.storage(), ImageBuf::IMAGECACHE);
         EXPECT_FILTER(direct, filter(direct, src, {}, 0)) << name;
         EXPECT_FILTER(from_cache, filter(from_cache, cached, {}, 0)) << name;
