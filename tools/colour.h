@@ -16,9 +16,8 @@ struct ConversionOptions {
 };
 
 /// Keys of --ociodisplay.
-struct DisplayOptions {
-    std::string from, looks, key, value;
-    bool unpremult = false;
+struct DisplayOptions : ConversionOptions {
+    std::string from, looks;
 };
 
 /// Makes $OCIO name that file, and reads it. Before the first use of the configuration.

@@ -11,15 +11,25 @@
 
 namespace pimg {
 
-template<>
-const std::vector<Option<pimgtool::ConversionOptions>>& option_table<pimgtool::ConversionOptions>()
+namespace {
+
+/// The keys of T, ConversionOptions or a struct derived from it, that all conversions have.
+template<class T>
+std::vector<Option<T>> conversion_table()
 {
-    using T = pimgtool::ConversionOptions;
-    static const std::vector<Option<T>> table = {
+    return {
         { &T::key, { "key", 0, 0, "", "", "variables of the OpenColorIO context to set, with commas between them" } },
         { &T::value, { "value", 0, 0, "", "", "their values, with commas between them" } },
         { &T::unpremult, { "unpremult", 0, 0, "", "", "convert colours divided by alpha, and multiply them again" } },
     };
+}
+
+}  // namespace
+
+template<>
+const std::vector<Option<pimgtool::ConversionOptions>>& option_table<pimgtool::ConversionOptions>()
+{
+    static const std::vector<Option<pimgtool::ConversionOptions>> table = conversion_table<pimgtool::ConversionOptions>();
     return table;
 }
 
@@ -27,13 +37,13 @@ template<>
 const std::vector<Option<pimgtool::DisplayOptions>>& option_table<pimgtool::DisplayOptions>()
 {
     using T = pimgtool::DisplayOptions;
-    static const std::vector<Option<T>> table = {
-        { &T::from, { "from", 0, 0, "", "", "space to convert from; empty: the one the picture says it is in" } },
-        { &T::looks, { "looks", 0, 0, "", "", "looks to apply instead of the view's own" } },
-        { &T::key, { "key", 0, 0, "", "", "variables of the OpenColorIO context to set, with commas between them" } },
-        { &T::value, { "value", 0, 0, "", "", "their values, with commas between them" } },
-        { &T::unpremult, { "unpremult", 0, 0, "", "", "convert colours divided by alpha, and multiply them again" } },
-    };
+    static const std::vector<Option<T>> table = [] {
+        std::vector<Option<T>> all = conversion_table<T>();
+        all.insert(all.begin(),
+                   { { &T::from, { "from", 0, 0, "", "", "space to convert from; empty: the one the picture says it is in" } },
+                     { &T::looks, { "looks", 0, 0, "", "", "looks to apply instead of the view's own" } } });
+        return all;
+    }();
     return table;
 }
 

@@ -87,7 +87,7 @@ bool threads(const Call& call, Program& program, std::string& error)
 bool stats(const Call& call, Program& program, std::string& error)
 {
     StatsOptions options;
-    if (!read_keys(call, options, error))
+    if (!pimg::set_options(options, call.keys, error))
         return false;
     program.stats = options.format;
     return true;
@@ -102,7 +102,7 @@ bool verbose(const Call&, Program& program, std::string&)
 bool answered_already(const Call& call, Program&, std::string& error)
 {
     HelpOptions options;
-    return read_keys(call, options, error);
+    return pimg::set_options(options, call.keys, error);
 }
 
 // ---- the table --------------------------------------------------------------------------------------------

@@ -29,7 +29,7 @@ bool output_file(const Call& call, Program& program, std::string& error)
     }
     pimg::io::WriteOptions options;
     options.profile = "full";
-    if (!read_keys(keys, options, error))
+    if (!pimg::set_options(options, keys.keys, error))
         return false;
     if (!keys.keys.empty() && !has_pimg_extension(filename)) {
         error = format("{} is for .pimg files, \"{}\" is none", keys.keys[0].first, filename);
@@ -130,7 +130,7 @@ bool shot_stats(const Call& call, Program& settings, std::string& error)
 {
     settings.shot_file = call.words[0];
     if (!settings.shot_file.empty() && !OIIO::Filesystem::is_directory(settings.shot_file))
-        return read_keys(call, settings.shot, error);
+        return pimg::set_options(settings.shot, call.keys, error);
     error = format("\"{}\": expected a file's name", settings.shot_file);
     return false;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <pimg/filter_table.h>
 #include <pimg/imagebufalgo.h>
 
 #include "command.h"
@@ -17,22 +18,13 @@ CommandGroup colour_group();
 CommandGroup output_group();
 CommandGroup sequence_group();
 
-template<class Options>
-bool read_keys(const Call& call, Options& options, std::string& error)
-{
-    for (const auto& [key, value] : call.keys)
-        if (!pimg::set_option(options, key, value, error))
-            return false;
-    return pimg::check_options(options, error);
-}
-
 /// An operation with keys.
 template<class Options>
 Command operation(const char* name, const char* help, bool (*run)(Session&, const Options&))
 {
     const auto prepare = [run](const Call& call, Program& program, std::string& error) {
         Options options;
-        if (!read_keys(call, options, error))
+        if (!pimg::set_options(options, call.keys, error))
             return false;
         program.steps.push_back({ call.command->name, [=](Session& session) {
                                      return run(session, options);
@@ -51,7 +43,7 @@ Command filter(const char* name, const char* help, FilterFunction<Options> funct
 {
     const auto prepare = [=](const Call& call, Program& program, std::string& error) {
         Options options;
-        if (!read_keys(call, options, error))
+        if (!pimg::set_options(options, call.keys, error))
             return false;
         const auto run = [=](OIIO::ImageBuf& dst, const pimg::ProgressiveImage& src) {
             return function(dst, src, options, {}, 0);
@@ -72,7 +64,7 @@ Command worded(const char* name, const char* words, const char* help,
 {
     const auto prepare = [=](const Call& call, Program& program, std::string& error) {
         Options options;
-        if (!read_keys(call, options, error) || (check && !check(call.words, options, error)))
+        if (!pimg::set_options(options, call.keys, error) || (check && !check(call.words, options, error)))
             return false;
         program.steps.push_back({ call.command->name, [run, options, words = call.words](Session& session) {
                                      return run(session, words, options);

@@ -10,19 +10,10 @@ namespace pimg {
 
 namespace {
 
-bool is_floating(OIIO::TypeDesc type)
-{
-    return type == OIIO::TypeDesc::HALF || type == OIIO::TypeDesc::FLOAT || type == OIIO::TypeDesc::DOUBLE;
-}
-
 bool is_empty(const OIIO::ROI& roi)
 {
     return roi.xbegin >= roi.xend || roi.ybegin >= roi.yend || roi.zbegin >= roi.zend || roi.chbegin >= roi.chend;
 }
-
-}  // namespace
-
-namespace {
 
 bool is_built(OIIO::ImageBuf& dst, const ProgressiveImage& src)
 {
@@ -57,7 +48,7 @@ bool prepare(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, R
     if (!is_built(dst, src))
         return false;
     OIIO::ImageSpec spec = src.data()->spec;
-    if (type == ResultType::full_float || (type == ResultType::floating && !is_floating(spec.format)))
+    if (type == ResultType::full_float || (type == ResultType::floating && !spec.format.is_floating_point()))
         spec.format = OIIO::TypeDesc::FLOAT;
     return prepare_as(dst, *src.data(), roi, spec);
 }

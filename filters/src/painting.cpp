@@ -80,15 +80,9 @@ Planes OwnedPlanes::view() const
 
 OwnedPlanes stored_planes(const ProgressiveImage::Data& data)
 {
-    const std::size_t pixels = data.spec.image_pixels();
     OwnedPlanes planes { data.spec.width, data.spec.height, {} };
-    for (int c = 0; c < data.colour.count(); ++c) {
-        std::vector<float> samples(pixels);
-        const float* p = static_cast<const float*>(data.source.localpixels()) + data.colour.channel(c);
-        for (std::size_t i = 0; i < pixels; ++i, p += data.source.nchannels())
-            samples[i] = *p;
-        planes.channels.push_back(std::move(samples));
-    }
+    for (int c = 0; c < data.colour.count(); ++c)
+        planes.channels.push_back(channel_samples(data, data.colour.channel(c)));
     to_mesh_size(data.hierarchy, planes);
     return planes;
 }

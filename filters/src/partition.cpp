@@ -30,15 +30,9 @@ void write_boundaries(ImageBuf& dst, const ProgressiveImage::Data& data, ROI roi
 /// The colour channels with every pixel at the mean of its part.
 std::vector<std::vector<float>> part_means(const ProgressiveImage::Data& data, const Partition& partition)
 {
-    const std::size_t stride = std::size_t(data.source.nchannels());
     std::vector<std::vector<float>> results;
     for (int i = 0; i < data.colour.count(); ++i) {
-        const float* p = static_cast<const float*>(data.source.localpixels()) + data.colour.channel(i);
-        std::vector<float> samples(partition.labels.size());
-        for (float& sample : samples) {
-            sample = *p;
-            p += stride;
-        }
+        std::vector<float> samples = channel_samples(data, data.colour.channel(i));
         const std::vector<float> means = label_means(partition.labels, partition.count, samples.data());
         for (std::size_t k = 0; k < samples.size(); ++k)
             samples[k] = means[partition.labels[k]];

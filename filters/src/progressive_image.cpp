@@ -31,21 +31,13 @@ private:
     std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
 };
 
-bool is_floating(OIIO::TypeDesc type)
-{
-    return type == OIIO::TypeDesc::HALF || type == OIIO::TypeDesc::FLOAT || type == OIIO::TypeDesc::DOUBLE;
-}
-
 /// Samples of one channel, one per mesh pixel, times 2^-exponent.
 std::vector<float> mesh_samples(const ProgressiveImage::Data& data, int channel, int exponent)
 {
-    const OIIO::ImageSpec& spec = data.source.spec();
-    const float* p = static_cast<const float*>(data.source.localpixels()) + channel;
-    std::vector<float> samples(spec.image_pixels());
-    for (float& sample : samples) {
-        sample = exponent == 0 ? *p : std::ldexp(*p, -exponent);
-        p += spec.nchannels;
-    }
+    std::vector<float> samples = channel_samples(data, channel);
+    if (exponent != 0)
+        for (float& sample : samples)
+            sample = std::ldexp(sample, -exponent);
     return to_mesh_pixels(data.hierarchy, samples.data());
 }
 
@@ -110,6 +102,17 @@ std::size_t bytes(const Bands& bands)
 
 }  // namespace
 
+std::vector<float> channel_samples(const ProgressiveImage::Data& data, int channel)
+{
+    const float* p = static_cast<const float*>(data.source.localpixels()) + channel;
+    std::vector<float> samples(data.spec.image_pixels());
+    for (float& sample : samples) {
+        sample = *p;
+        p += data.source.nchannels();
+    }
+    return samples;
+}
+
 bool ProgressiveImage::Data::read(const OIIO::ImageBuf& src, std::string& error)
 {
     if (!src.initialized()) {
@@ -136,7 +139,7 @@ bool ProgressiveImage::Data::read(const OIIO::ImageBuf& src, std::string& error)
     // What the file stored tells an 8-bit picture that was read as float from a scene-referred one.
     OIIO::ImageSpec stored = spec;
     stored.format = src.nativespec().format;
-    m_whole_numbers = !is_floating(stored.format);
+    m_whole_numbers = !stored.format.is_floating_point();
     stats.guide = !options.guide.empty() ? options.guide : m_whole_numbers ? "luma" : "log";
     return Colour::resolve(stored, options.incolorspace, colour, error);
 }

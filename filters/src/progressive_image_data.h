@@ -90,6 +90,9 @@ private:
     std::vector<std::vector<float>> m_scratch;
 };
 
+/// Samples of one channel of the source, row-major.
+std::vector<float> channel_samples(const ProgressiveImage::Data& data, int channel);
+
 /// `size` floats without a particular value, kept by the image for the next who needs some.
 class Scratch {
 public:

@@ -17,17 +17,6 @@ constexpr float kUnitBelowMiddle = 0x1p-10f;
 constexpr float kLargest = 0x1p100f;  ///< sums and squares of larger samples are scaled down
 constexpr float kSteep = 0x1p12f;     ///< ratio to the unit above which the logarithm alone is exact enough
 
-std::vector<float> channel_samples(const ProgressiveImage::Data& data, int channel)
-{
-    const float* p = static_cast<const float*>(data.source.localpixels()) + channel;
-    std::vector<float> samples(data.spec.image_pixels());
-    for (float& sample : samples) {
-        sample = *p;
-        p += data.source.nchannels();
-    }
-    return samples;
-}
-
 SignedLog find_scale(const Rasters& samples)
 {
     std::vector<float> magnitudes;

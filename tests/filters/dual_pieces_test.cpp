@@ -10,7 +10,7 @@
 
 #include <pimg/labels.h>
 
-#include "core/pictures.h"
+#include "filters/pictures.h"
 
 namespace pimg {
 namespace {
@@ -18,6 +18,7 @@ namespace {
 using OIIO::ImageBuf;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
+using test::labels_of;
 namespace iba = pimg::ImageBufAlgo;
 
 ImageBuf picture(int width, int height)
@@ -37,15 +38,6 @@ DualPiecesOptions at_fraction(float fraction, const char* output = "labels")
     options.fraction = fraction;
     options.output = output;
     return options;
-}
-
-std::vector<Index> labels_of(const ImageBuf& buf)
-{
-    EXPECT_FALSE(buf.has_error()) << buf.geterror();
-    EXPECT_EQ(buf.spec().format, TypeDesc(TypeDesc::UINT32));
-    std::vector<Index> labels(buf.spec().image_pixels());
-    EXPECT_TRUE(buf.get_pixels(buf.roi(), TypeDesc::UINT32, labels.data())) << buf.geterror();
-    return labels;
 }
 
 TEST(DualPiecesFilter, GivesEveryVertexOfTheLevelAPiece)

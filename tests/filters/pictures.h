@@ -10,6 +10,8 @@
 #include <OpenImageIO/imagebuf.h>
 #include <gtest/gtest.h>
 
+#include <pimg/types.h>
+
 #include "core/pictures.h"
 
 namespace pimg::test {
@@ -56,6 +58,17 @@ inline std::vector<float> pixels(const OIIO::ImageBuf& buf, OIIO::ROI roi = {})
     std::vector<float> values(std::size_t(all.npixels()) * std::size_t(all.nchannels()));
     EXPECT_TRUE(buf.get_pixels(all, OIIO::TypeFloat, values.data()));
     return values;
+}
+
+/// The labels of a picture of them.
+inline std::vector<Index> labels_of(const OIIO::ImageBuf& buf)
+{
+    EXPECT_FALSE(buf.has_error()) << buf.geterror();
+    EXPECT_EQ(buf.spec().format, OIIO::TypeDesc(OIIO::TypeDesc::UINT32));
+    EXPECT_EQ(buf.nchannels(), 1);
+    std::vector<Index> labels(buf.spec().image_pixels());
+    EXPECT_TRUE(buf.get_pixels(buf.roi(), OIIO::TypeDesc::UINT32, labels.data())) << buf.geterror();
+    return labels;
 }
 
 inline float lstar(float y)

@@ -14,7 +14,7 @@
 
 #include <pimg/dual_pieces.h>
 
-#include "core/pictures.h"
+#include "filters/pictures.h"
 
 namespace pimg {
 namespace {
@@ -23,6 +23,7 @@ using OIIO::ImageBuf;
 using OIIO::ImageSpec;
 using OIIO::ROI;
 using OIIO::TypeDesc;
+using test::labels_of;
 namespace iba = pimg::ImageBufAlgo;
 
 /// Discs and shading, other in each channel; alpha a ramp.
@@ -46,15 +47,6 @@ SegmentOptions options_of(int regions, const char* output = "labels")
     options.regions = regions;
     options.output = output;
     return options;
-}
-
-std::vector<Index> labels_of(const ImageBuf& buf)
-{
-    EXPECT_EQ(buf.spec().format, TypeDesc(TypeDesc::UINT32));
-    EXPECT_EQ(buf.nchannels(), 1);
-    std::vector<Index> labels(buf.spec().image_pixels());
-    EXPECT_TRUE(buf.get_pixels(buf.roi(), TypeDesc::UINT32, labels.data())) << buf.geterror();
-    return labels;
 }
 
 void expect_regions(const ImageBuf& buf, Index regions)
