@@ -8,6 +8,7 @@
 
 #include <pimg/bands.h>
 #include <pimg/simplify.h>
+#include <pimg/sweep_plan.h>
 
 #include "pictures.h"
 
@@ -71,27 +72,58 @@ void analyse(benchmark::State& state)
 }
 BENCHMARK(analyse)->Arg(512)->Arg(2048)->Unit(benchmark::kMillisecond);
 
-/// The sweep with a gain that depends on every detail, as hdr_compress has.
+/// A gain that depends on the detail, as hdr_compress has.
+pimg::Detail halved(pimg::Detail d)
+{
+    const float gain = std::fabs(d.t) + std::fabs(d.u) > 8.0f ? 0.5f : 0.9f;
+    return { gain * d.t, gain * d.u };
+}
+
 void sweep(benchmark::State& state)
 {
     const Built& b = built(int(state.range(0)));
     std::vector<float> values(b.hierarchy.vertices());
     for (auto _ : state) {
-        pimg::sweep(b.hierarchy, b.bands[0], values.data(), b.hierarchy.levels(), [](pimg::Level, pimg::Detail d) {
-            const float gain = std::fabs(d.t) + std::fabs(d.u) > 8.0f ? 0.5f : 0.9f;
-            return pimg::Detail { gain * d.t, gain * d.u };
-        });
+        pimg::sweep(b.hierarchy, b.bands[0], values.data(), b.hierarchy.levels(), [](pimg::Level, pimg::Detail d) { return halved(d); });
         benchmark::ClobberMemory();
     }
     state.SetItemsProcessed(state.iterations() * b.hierarchy.levels());
 }
 BENCHMARK(sweep)->Arg(512)->Arg(1024)->Arg(2048)->Unit(benchmark::kMillisecond);
 
-/// What a retune reads and writes, copied: stencil, detail, place of a vertex, RGB in and out. Items are pixels.
+/// The same by a plan, one thread.
+void planned_sweep(benchmark::State& state)
+{
+    const Built& b = built(int(state.range(0)));
+    const pimg::SweepPlan plan(b.hierarchy);
+    const std::vector<pimg::Detail> details = plan.in_order(b.bands[0].details);
+    std::vector<float> values(plan.places());
+    for (auto _ : state) {
+        plan.set_base(b.bands[0].base, 1.0f, values.data());
+        plan.for_splits({}, [&](pimg::Level first, pimg::Level last) {
+            plan.sweep(first, last, values.data(), [&](pimg::Level i) { return halved(details[i]); });
+        });
+        benchmark::ClobberMemory();
+    }
+    state.SetItemsProcessed(state.iterations() * b.hierarchy.levels());
+}
+BENCHMARK(planned_sweep)->Arg(512)->Arg(1024)->Arg(2048)->Unit(benchmark::kMillisecond);
+
+void make_plan(benchmark::State& state)
+{
+    const Built& b = built(int(state.range(0)));
+    for (auto _ : state)
+        benchmark::DoNotOptimize(pimg::SweepPlan(b.hierarchy));
+    state.SetItemsProcessed(state.iterations() * b.hierarchy.levels());
+}
+BENCHMARK(make_plan)->Arg(1024)->Unit(benchmark::kMillisecond);
+
+/// What a retune reads and writes, copied: planned split, detail, contrast, values by place and by pixel, guide, RGB in
+/// and out. Items are pixels.
 void copy(benchmark::State& state)
 {
     const std::size_t pixels = std::size_t(state.range(0) * state.range(0));
-    const std::size_t bytes = sizeof(pimg::Stencil) + sizeof(pimg::Detail) + sizeof(pimg::Index) + 6 * sizeof(float);
+    const std::size_t bytes = sizeof(pimg::PlannedSplit) + sizeof(pimg::Detail) + 10 * sizeof(float);
     std::vector<char> from(pixels * bytes / 2, 1), to(from.size());
     for (auto _ : state) {
         std::memcpy(to.data(), from.data(), from.size());

@@ -32,7 +32,8 @@ void retune_hdr_compress(benchmark::State& state)
     }
     OIIO::ImageBuf dst;
     pimg::HdrCompressOptions options;
-    pimg::ImageBufAlgo::hdr_compress(dst, image, options, {}, int(state.range(1)));  // fills what is kept for the next
+    for (int i = 0; i < 2; ++i)  // what later ones keep is made by the first two
+        pimg::ImageBufAlgo::hdr_compress(dst, image, options, {}, int(state.range(1)));
     for (auto _ : state) {
         options.beta = options.beta == 1.0f ? 2.0f : 1.0f;
         if (!pimg::ImageBufAlgo::hdr_compress(dst, image, options, {}, int(state.range(1)))) {

@@ -42,3 +42,13 @@ function(pimg_add_library name)
     install(EXPORT pimg_${name} NAMESPACE pimg:: FILE pimg_${name}.cmake
         DESTINATION ${PIMG_INSTALL_CMAKEDIR})
 endfunction()
+
+# pimg_vector_sources(<name> <source>...): sources of pimg_<name> that Highway compiles once per instruction set, chosen at run
+# time; every one gives the same bits. EMU128 is the portable baseline: the compiler bug it is held back for concerns
+# 16-bit integers, which are not used.
+function(pimg_vector_sources name)
+    # Highway includes a source by the name the file gives itself.
+    target_include_directories(pimg_${name} PRIVATE src)
+    set_source_files_properties(${ARGN} PROPERTIES
+        COMPILE_DEFINITIONS "HWY_BROKEN_EMU128=0;HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_AVX3_DL)")
+endfunction()

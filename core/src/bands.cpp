@@ -83,17 +83,29 @@ Status rebase(Hierarchy& h, std::vector<Bands>& bands, Level level, const Parall
     return {};
 }
 
+namespace {
+
+template<class Visit>
+void in_batches(const ParallelFor& parallel, std::size_t n, Visit&& visit)
+{
+    constexpr std::size_t kBatch = 1 << 15;
+    run(parallel, (n + kBatch - 1) / kBatch, [&](std::size_t batch) {
+        for (std::size_t i = batch * kBatch; i < std::min(n, (batch + 1) * kBatch); ++i)
+            visit(i);
+    });
+}
+
+}  // namespace
+
 void scatter(const Hierarchy& h, const float* values, float* samples, const ParallelFor& parallel)
 {
-    const auto in_batches = [&](std::size_t n, const auto& visit) {
-        constexpr std::size_t kBatch = 1 << 15;
-        run(parallel, (n + kBatch - 1) / kBatch, [&](std::size_t batch) {
-            for (std::size_t i = batch * kBatch; i < std::min(n, (batch + 1) * kBatch); ++i)
-                visit(i);
-        });
-    };
-    in_batches(h.vertices(), [&](std::size_t v) { samples[h.pixels[v]] = values[v]; });
-    in_batches(h.between.size(), [&](std::size_t i) {
+    in_batches(parallel, h.vertices(), [&](std::size_t v) { samples[h.pixels[v]] = values[v]; });
+    interpolate_between(h, samples, parallel);
+}
+
+void interpolate_between(const Hierarchy& h, float* samples, const ParallelFor& parallel)
+{
+    in_batches(parallel, h.between.size(), [&](std::size_t i) {
         const PixelStencil& k = h.between[i];
         const float a = samples[k.a];
         samples[k.pixel] = a + (k.wb * (samples[k.b] - a) + k.wc * (samples[k.c] - a));

@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <mutex>
 #include <utility>
 
@@ -85,12 +83,10 @@ void apply_to_scalars(const OCIO::ConstCPUProcessorRcPtr& processor, float* valu
     std::copy(last, last + (count - 3 * pixels), values + 3 * pixels);
 }
 
-/// The logarithm to base 2 or, inverted, the antilogarithm.
-OCIO::ConstCPUProcessorRcPtr log2_processor(OCIO::TransformDirection direction)
+OCIO::ConstCPUProcessorRcPtr log2_processor()
 {
     const auto transform = OCIO::LogTransform::Create();
     transform->setBase(2.0);
-    transform->setDirection(direction);
     return cpu(raw_config()->getProcessor(transform));
 }
 
@@ -418,35 +414,8 @@ void Colour::decode(float* rgb, std::size_t count) const
 
 void log2_in_place(float* values, std::size_t count)
 {
-    static const OCIO::ConstCPUProcessorRcPtr processor = log2_processor(OCIO::TRANSFORM_DIR_FORWARD);
+    static const OCIO::ConstCPUProcessorRcPtr processor = log2_processor();
     apply_to_scalars(processor, values, count);
-}
-
-/// 2^x by a table of 2^(i/256) and two terms of the series in between: to the last bit but one, and several
-/// times as fast as the processor the table comes from.
-void exp2_in_place(float* values, std::size_t count)
-{
-    constexpr int kSteps = 256;
-    constexpr float kLn2 = 0.69314718f;
-    static const std::array<float, kSteps> table = [] {
-        std::array<float, kSteps> powers;
-        for (int i = 0; i < kSteps; ++i)
-            powers[std::size_t(i)] = float(i) / float(kSteps);
-        apply_to_scalars(log2_processor(OCIO::TRANSFORM_DIR_INVERSE), powers.data(), powers.size());
-        return powers;
-    }();
-    for (std::size_t i = 0; i < count; ++i) {
-        const float x = std::clamp(values[i], -126.0f, 127.0f);
-        const float scaled = x * float(kSteps);
-        int step = int(scaled);
-        step -= scaled < float(step);
-        const float rest = (x - float(step) / float(kSteps)) * kLn2;
-        const std::uint32_t bits = std::uint32_t((step >> 8) + 127) << 23;
-        float power;
-        std::memcpy(&power, &bits, sizeof power);
-        const float fraction = table[std::size_t(step & (kSteps - 1))];
-        values[i] = (fraction + fraction * (rest + 0.5f * rest * rest)) * power;
-    }
 }
 
 }  // namespace pimg

@@ -1,20 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compression of details: Eq. (2) of the paper, and the contrast it is applied to.
+// The contrast that details belong to, by which they are compressed.
 #pragma once
 
 #include <vector>
 
 #include <pimg/bands.h>
+#include <pimg/sweep_plan.h>
+
+#include "detail_gain.h"
 
 namespace pimg {
 
-/// Eq. (2): h(d) = s0 + (1 - s0) (1 - d / dmax)^beta; details beyond dmax take s0.
-struct DetailGain {
-    float s0, beta, dmax;
-    float operator()(float contrast) const;
+/// Bands ready to be swept again and again: details in the order of a plan.
+struct PlannedBands {
+    SweepPlan plan;
+    std::vector<float> base;
+    std::vector<Detail> details;
+
+    PlannedBands(SweepPlan&& plan, const Bands& bands, const ParallelFor& parallel);
 };
 
-/// For every split, the contrast its details belong to:
+/// For every split, in the order of the plan, the contrast its details belong to:
 ///     e = coherence * inherited + (1 - coherence) * own
 /// own: the larger of the two details and of the span of the coarser mesh's values at the stencils' vertices.
 /// inherited: what the splits that made those vertices had, by the weights the details are predicted with; the base
@@ -26,12 +32,12 @@ struct DetailGain {
 /// face is as compressed as the face itself, and the texture on a plateau, whose faces are flat, is left alone.
 /// Why anything is inherited: the mesh of a coarse level is one of many that would do as well, and a gain that follows its
 /// accidents makes pictures that differ by one pixel, or by a scale, come out visibly different far away.
-std::vector<float> contrast_envelope(const Hierarchy& hierarchy, const Bands& bands, float coherence, float range);
+std::vector<float> contrast_envelope(const PlannedBands& bands, float coherence, float range, const ParallelFor& parallel);
 
-/// Values at the finest level, in vertex order, of the compressed bands: the base scaled by gain.s0, both details of
-/// split i by gain(envelope[i]), or each by the gain of its own size if there is no envelope.
-void compress(const Hierarchy& hierarchy, const Bands& bands, const DetailGain& gain,
-              const std::vector<float>* envelope, float* values);
+/// The compressed bands at the finest level, in the places of the plan: the base scaled by gain.s0, both details of a
+/// split by the gain of its contrast in the envelope, or each by that of its own size if there is none.
+void compress(const PlannedBands& bands, const DetailGain& gain, const std::vector<float>* envelope,
+              const ParallelFor& parallel, float* values);
 
 /// Adds the compressed residual to the compressed finest mesh: by the gain of its own size, or of `coherence` times the span of
 /// its face if that is larger. Both rasters are of the picture's size; nothing to do without a residual.

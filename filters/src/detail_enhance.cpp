@@ -10,7 +10,6 @@
 #include <OpenImageIO/strutil.h>
 
 #include "image_filter.h"
-#include "sweep.h"
 
 namespace pimg {
 namespace ImageBufAlgo {
@@ -93,7 +92,7 @@ std::vector<float> enhanced(const ProgressiveImage::Data& data, int channel, con
     std::vector<float> values(data.hierarchy.vertices(), 0.0f);
     const Detail* details = bands.details.data();
     const auto first = std::find_if(more.begin(), more.end() - 1, [](float m) { return m != 0.0f; });
-    sweep_from(data.hierarchy, Level(first - more.begin()), values.data(), [&](Level i) {
+    sweep_splits(data.hierarchy, Level(first - more.begin()), data.hierarchy.levels(), values.data(), [&](Level i) {
         return Detail { more[i] * details[i].t, more[i] * details[i].u };
     });
     const std::vector<float>* residual = more.back() != 0.0f ? &bands.residual : nullptr;

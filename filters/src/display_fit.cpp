@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "overview.h"
 
@@ -19,12 +20,6 @@ constexpr double kWhiteQuantile = 0.999;
 constexpr double kMeanLuminance = 0.2;  ///< the picture is as light as that on the whole
 
 }  // namespace
-
-Shoulder::Shoulder(float white) : m_white(std::max(white, 1.000001f))
-{
-    const float t = (m_white - kKnee) / (1.0f - kKnee);
-    m_inverse_square = 1.0f / (t * t);
-}
 
 void find_compression(float range, HdrCompressOptions& options)
 {
@@ -49,15 +44,14 @@ float shoulder_white(const HdrCompressOptions& options)
 
 namespace {
 
-/// Mean of the cube root of display luminance, which is lightness but for constants.
-double mean_lightness(const std::vector<float>& overview, const HdrCompressOptions& options)
+/// Mean of the cube root of display luminance, which is lightness but for constants. `scratch` is as large as the overview.
+double mean_lightness(const std::vector<float>& overview, const HdrCompressOptions& options, std::vector<float>& scratch)
 {
-    const Shoulder shoulder(shoulder_white(options));
-    const float key = std::log2(options.key);
-    double sum = 0.0;
-    for (const float stops : overview)
-        sum += double(std::cbrt(shoulder(kMiddleGrey * std::exp2(std::min(options.contrast * (stops - key), 100.0f)))));
-    return sum / double(overview.size());
+    const float offset = std::log2(kMiddleGrey) - options.contrast * std::log2(options.key);
+    std::transform(overview.begin(), overview.end(), scratch.begin(),
+                   [&](float stops) { return options.contrast * stops + offset; });
+    lightness_in_place(Shoulder(shoulder_white(options)), scratch.data(), scratch.size());
+    return std::accumulate(scratch.begin(), scratch.end(), 0.0) / double(scratch.size());
 }
 
 }  // namespace
@@ -75,12 +69,13 @@ void find_exposure(std::vector<float> overview, float dark, HdrCompressOptions& 
     }
     // Lightness falls as the key rises.
     HdrCompressOptions trial = options;
+    std::vector<float> scratch(overview.size());
     trial.exposure = 0.0f;
     float low = overview.front() - 16.0f, high = overview.back() + 16.0f;
     for (int i = 0; i < 24; ++i) {
         const float middle = 0.5f * (low + high);
         trial.key = std::exp2(middle);
-        (mean_lightness(overview, trial) > std::cbrt(kMeanLuminance) ? low : high) = middle;
+        (mean_lightness(overview, trial, scratch) > std::cbrt(kMeanLuminance) ? low : high) = middle;
     }
     options.key = std::exp2(0.5f * (low + high));
 }

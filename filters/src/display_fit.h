@@ -6,30 +6,9 @@
 
 #include <pimg/options.h>
 
+#include "display_curve.h"
+
 namespace pimg {
-
-/// Display luminance of middle grey.
-constexpr float kMiddleGrey = 0.18f;
-
-/// Rolls highlights off: the identity up to a knee, then a smooth rise that reaches 1 at `white`.
-class Shoulder {
-public:
-    explicit Shoulder(float white);  ///< 1 or more
-
-    float operator()(float y) const
-    {
-        if (y <= kKnee)
-            return y;
-        if (!(y < m_white))
-            return 1.0f;
-        const float t = (y - kKnee) * (1.0f / (1.0f - kKnee));
-        return kKnee + (1.0f - kKnee) * (t * (1.0f + t * m_inverse_square) / (1.0f + t));
-    }
-
-private:
-    static constexpr float kKnee = 0.6f;
-    float m_white, m_inverse_square;
-};
 
 /// What s0, dmax and contrast are where they are 0: dmax a share of the picture's dynamic range, `range` stops, and the
 /// others all from dmax, so that pictures compressed with one dmax are treated alike.

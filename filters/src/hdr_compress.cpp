@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "contrast_envelope.h"
 #include "display_fit.h"
@@ -31,13 +30,12 @@ DetailGain gain_of(const HdrCompressOptions& options)
 /// Fills in what is 0 and not found from dmax alone.
 void find_exposure(const Overview& overview, float reference, HdrCompressOptions& options)
 {
-    std::vector<float> envelope, values(overview.hierarchy.vertices());
+    std::vector<float> envelope, values(overview.bands->plan.places()), cells(overview.hierarchy.mesh_pixels());
     if (options.coherence > 0.0f)
-        envelope = contrast_envelope(overview.hierarchy, overview.bands, options.coherence,
-                                     range_of(options) * kUnitsPerStop);
-    compress(overview.hierarchy, overview.bands, gain_of(options), envelope.empty() ? nullptr : &envelope,
-             values.data());
-    const std::vector<float> cells = to_picture(overview.hierarchy, values.data());
+        envelope = contrast_envelope(*overview.bands, options.coherence, range_of(options) * kUnitsPerStop, {});
+    compress(*overview.bands, gain_of(options), envelope.empty() ? nullptr : &envelope, {}, values.data());
+    overview.bands->plan.scatter(overview.hierarchy, values.data(), cells.data());
+    crop_to_picture(overview.hierarchy, cells);
     const float dark = compressed_reference(options, reference);
     std::vector<float> stops;
     for (std::size_t i = 0; i < cells.size(); ++i)
@@ -77,76 +75,17 @@ bool compress_luminance(ProgressiveImage::Data& data, const ParallelFor& paralle
     if (!resolve(options, log->luminance.reference, [&] { return data.overview(parallel, error); }))
         return false;
     const DetailGain gain = gain_of(options);
-    Scratch scratch(data, data.hierarchy.vertices());
-    std::vector<float>& values = *scratch;
+    const std::shared_ptr<const PlannedBands> planned = data.planned_log_bands(parallel);
+    Scratch values(data, planned->plan.places());
     std::shared_ptr<const std::vector<float>> envelope;
     if (options.coherence > 0.0f)
-        envelope = data.envelope(options.coherence, range_of(options) * kUnitsPerStop);
-    compress(data.hierarchy, *log->bands, gain, envelope.get(), values.data());
-    scatter(data.hierarchy, values.data(), (*c.samples).data(), parallel);
+        envelope = data.envelope(planned, options.coherence, range_of(options) * kUnitsPerStop, parallel);
+    compress(*planned, gain, envelope.get(), parallel, (*values).data());
+    planned->plan.scatter(data.hierarchy, (*values).data(), (*c.samples).data(), parallel);
     crop_to_picture(data.hierarchy, *c.samples);
     compress_residual(data.hierarchy, *log->bands, gain, options.coherence, log->luminance.guide.samples, *c.samples);
     return true;
 }
-
-/// Colour of one pixel at another luminance.
-class Recolour {
-public:
-    Recolour(const Colour& colour, const HdrCompressOptions& options)
-        : m_colour(colour),
-          m_saturation(options.saturation),
-          m_fit(options.fit),
-          m_shoulder(options.fit ? shoulder_white(options) : 1.0f)
-    {
-    }
-
-    /// `scale`: compressed over scene luminance, in display units if fitted.
-    void operator()(float* rgb, float scale) const
-    {
-        const float luminance = std::min(m_colour.luminance(rgb), std::numeric_limits<float>::max());
-        if (m_saturation != 1.0f && luminance > 0.0f)
-            saturate(rgb, luminance);
-        if (!m_fit) {
-            for (int i = 0; i < 3; ++i)
-                rgb[i] *= scale;
-        } else if (luminance > 0.0f) {
-            const float y = m_shoulder(luminance * scale);
-            const float ratio = y / luminance;
-            for (int i = 0; i < 3; ++i)
-                rgb[i] = (luminance > 1e30f ? rgb[i] / luminance * y : rgb[i] * ratio);
-            into_gamut(rgb, y);
-        } else {
-            rgb[0] = rgb[1] = rgb[2] = 0.0f;
-        }
-    }
-
-private:
-    void saturate(float* rgb, float luminance) const
-    {
-        for (int i = 0; i < 3; ++i)
-            rgb[i] = std::copysign(luminance * std::pow(std::fabs(rgb[i] / luminance), m_saturation), rgb[i]);
-    }
-
-    /// Mixes in as much of grey `y` as brings all channels into 0..1: that keeps hue and luminance.
-    static void into_gamut(float* rgb, float y)
-    {
-        const float least = std::min({ rgb[0], rgb[1], rgb[2] }), most = std::max({ rgb[0], rgb[1], rgb[2] });
-        if (least >= 0.0f && most <= 1.0f)
-            return;
-        float share = 1.0f;
-        if (most > 1.0f)
-            share = (1.0f - y) / (most - y);
-        if (least < 0.0f)
-            share = std::min(share, y / (y - least));
-        for (int i = 0; i < 3; ++i)
-            rgb[i] = std::clamp(y + share * (rgb[i] - y), 0.0f, 1.0f);
-    }
-
-    const Colour& m_colour;
-    float m_saturation;
-    bool m_fit;
-    Shoulder m_shoulder;
-};
 
 /// Makes rows of results.
 class Renderer {
@@ -154,20 +93,11 @@ public:
     Renderer(const ProgressiveImage::Data& data, const Compressed& compressed)
         : m_data(data),
           m_compressed(compressed),
-          m_recolour(data.colour, compressed.options)
+          m_how(how(data.colour, compressed))
     {
-        // log2 of what to multiply a pixel by = m_slope * compressed sample - guide sample + m_offset.
-        const HdrCompressOptions& options = compressed.options;
-        const float reference = std::log2(compressed.luminance->reference);
-        const float compressed_ref = compressed_reference(options, compressed.luminance->reference);
-        if (options.fit) {
-            m_slope = options.contrast / kUnitsPerStop;
-            m_offset = options.contrast * (compressed_ref - std::log2(options.key)) + std::log2(kMiddleGrey)
-                + options.exposure - reference;
-        } else {
-            m_slope = 1.0f / kUnitsPerStop;
-            m_offset = compressed_ref - reference;
-        }
+        const Colour& colour = data.colour;
+        m_in_place = data.spec.nchannels == 3 && colour.count() == 3 && !colour.encoded() && colour.channel(0) == 0
+                     && colour.channel(1) == 1;
     }
 
     void render(int y, const OIIO::ROI& roi, float* row) const
@@ -175,25 +105,48 @@ public:
         const OIIO::ImageSpec& spec = m_data.source.spec();
         const std::size_t count = std::size_t(roi.width());
         const Index first = Index(y - spec.y) * Index(spec.width) + Index(roi.xbegin - spec.x);
-        std::vector<float> scratch(4 * count);
-        float *rgb = scratch.data(), *scales = rgb + 3 * count;
-        linear_pixels(m_data.source, m_data.colour, first, count, rgb);
-        const float* in = &m_compressed.luminance->guide.samples[first];
-        const float* out = &(*m_compressed.samples)[first];
-        for (std::size_t i = 0; i < count; ++i)
-            scales[i] = m_slope * out[i] - in[i] * (1.0f / kUnitsPerStop) + m_offset;
-        exp2_in_place(scales, count);
-        for (std::size_t i = 0; i < count; ++i)
-            m_recolour(rgb + 3 * i, scales[i]);
-        for (int c = 0; c < m_data.colour.count(); ++c) {
-            float* to = row + m_data.colour.channel(c);
-            for (std::size_t i = 0; i < count; ++i)
-                to[i * std::size_t(spec.nchannels)] = rgb[3 * i + std::size_t(c)];
-        }
+        if (m_in_place)
+            recolour(m_how, compressed(first), guide(first), count, row);
+        else
+            for (std::size_t x = 0; x < count; x += kBatch)
+                render_batch(first + Index(x), std::min(kBatch, count - x), row + x * std::size_t(spec.nchannels));
         put_back_specials(first, count, row);
     }
 
 private:
+    static constexpr std::size_t kBatch = 256;
+
+    static Recolour how(const Colour& colour, const Compressed& compressed)
+    {
+        const HdrCompressOptions& options = compressed.options;
+        const float reference = std::log2(compressed.luminance->reference);
+        const float compressed_ref = compressed_reference(options, compressed.luminance->reference);
+        Recolour r { colour.weights(), 1.0f / kUnitsPerStop, compressed_ref - reference, options.saturation, options.fit,
+                     Shoulder(options.fit ? shoulder_white(options) : 1.0f) };
+        if (options.fit) {
+            r.slope = options.contrast / kUnitsPerStop;
+            r.offset = options.contrast * (compressed_ref - std::log2(options.key)) + std::log2(kMiddleGrey)
+                       + options.exposure - reference;
+        }
+        return r;
+    }
+
+    const float* compressed(Index pixel) const { return &(*m_compressed.samples)[pixel]; }
+    const float* guide(Index pixel) const { return &m_compressed.luminance->guide.samples[pixel]; }
+
+    /// Pixels whose colour is not three samples in a row, as displays want them, or not linear.
+    void render_batch(Index first, std::size_t count, float* pixels) const
+    {
+        float rgb[3 * kBatch];
+        linear_pixels(m_data.source, m_data.colour, first, count, rgb);
+        recolour(m_how, compressed(first), guide(first), count, rgb);
+        for (int c = 0; c < m_data.colour.count(); ++c) {
+            float* to = pixels + m_data.colour.channel(c);
+            for (std::size_t i = 0; i < count; ++i)
+                to[i * std::size_t(m_data.spec.nchannels)] = rgb[3 * i + std::size_t(c)];
+        }
+    }
+
     /// As a display shows them: +Inf white; NaN stays what is around it. In the picture's own units: as they were.
     void put_back_specials(Index first, std::size_t count, float* row) const
     {
@@ -209,8 +162,8 @@ private:
 
     const ProgressiveImage::Data& m_data;
     const Compressed& m_compressed;
-    Recolour m_recolour;
-    float m_slope, m_offset;
+    Recolour m_how;
+    bool m_in_place;  ///< a row of the picture is a row of linear RGB
 };
 
 /// Metadata of what is now linear light.

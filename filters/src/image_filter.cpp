@@ -80,8 +80,16 @@ void write_rows(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, OIIO::R
     const int channels = data.source.nchannels();
     const OIIO::TypeDesc type = dst.spec().format;
     const std::size_t pixel_bytes = std::size_t(channels) * sizeof(float);
+    const bool in_place = type == OIIO::TypeDesc::FLOAT && roi.chbegin == 0 && roi.chend == channels
+                          && dst.pixel_stride() == OIIO::stride_t(pixel_bytes);
     for_rows(parallel, roi.ybegin, roi.yend, [&](int y) {
         const float* source = static_cast<const float*>(data.source.pixeladdr(roi.xbegin, y, roi.zbegin));
+        if (in_place) {
+            float* row = static_cast<float*>(dst.pixeladdr(roi.xbegin, y, roi.zbegin));
+            std::copy_n(source, std::size_t(roi.width()) * std::size_t(channels), row);
+            filter(y, row);
+            return;
+        }
         std::vector<float> row(source, source + std::size_t(roi.width()) * std::size_t(channels));
         filter(y, row.data());
         OIIO::convert_image(roi.nchannels(), roi.width(), 1, 1, row.data() + roi.chbegin, OIIO::TypeDesc::FLOAT,

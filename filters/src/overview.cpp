@@ -80,7 +80,7 @@ Status look_from_afar(const LogLuminance& luminance, const ParallelFor& parallel
     std::vector<Bands> bands;
     const Status status = simplify({ means.width, means.height, { { means.samples.data() } } }, options, overview.hierarchy, bands);
     if (status)
-        overview.bands = std::move(bands[0]);
+        overview.bands = std::make_unique<PlannedBands>(SweepPlan(overview.hierarchy, parallel), bands[0], parallel);
     return status;
 }
 

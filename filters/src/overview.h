@@ -3,12 +3,13 @@
 // picture, and means of light are the same in both, so they come out alike; noise and single pixels hardly count.
 #pragma once
 
+#include <memory>
 #include <vector>
 
-#include <pimg/bands.h>
 #include <pimg/hierarchy.h>
 #include <pimg/types.h>
 
+#include "contrast_envelope.h"
 #include "guide.h"
 
 namespace pimg {
@@ -18,7 +19,7 @@ struct Overview {
     std::vector<char> lit;   ///< whether a cell is not black, which says nothing of the light
     float range = 0.0f;      ///< dynamic range of the lit cells, in guide units
     Hierarchy hierarchy;     ///< of the cells
-    Bands bands;
+    std::unique_ptr<PlannedBands> bands;
 };
 
 Status look_from_afar(const LogLuminance& luminance, const ParallelFor& parallel, Overview& overview);

@@ -265,6 +265,17 @@ const LogBands* ProgressiveImage::Data::log_bands(const ParallelFor& parallel, s
     return m_log.get();
 }
 
+std::shared_ptr<const PlannedBands> ProgressiveImage::Data::planned_log_bands(const ParallelFor& parallel)
+{
+    std::lock_guard<std::mutex> lock(m_mutex);
+    if (m_log_sweeps < 2) {
+        SweepPlan plan = m_log_sweeps == 0 ? SweepPlan::as_it_is(hierarchy) : SweepPlan(hierarchy, parallel);
+        m_planned_log = std::make_shared<const PlannedBands>(std::move(plan), *m_log->bands, parallel);
+        ++m_log_sweeps;
+    }
+    return m_planned_log;
+}
+
 bool ProgressiveImage::Data::are_channels_the_guide() const
 {
     return !m_guide_clipped && (stats.guide == "rgb" || (stats.guide == "luma" && colour.count() < 2));
@@ -324,12 +335,14 @@ const Overview* ProgressiveImage::Data::overview(const ParallelFor& parallel, st
     return m_overview.get();
 }
 
-std::shared_ptr<const std::vector<float>> ProgressiveImage::Data::envelope(float coherence, float range)
+std::shared_ptr<const std::vector<float>> ProgressiveImage::Data::envelope(
+    const std::shared_ptr<const PlannedBands>& planned, float coherence, float range, const ParallelFor& parallel)
 {
     std::lock_guard<std::mutex> lock(m_mutex);
-    if (m_envelope == nullptr || m_envelope_coherence != coherence || m_envelope_range != range) {
-        m_envelope = std::make_shared<const std::vector<float>>(
-            contrast_envelope(hierarchy, *m_log->bands, coherence, range));
+    if (m_envelope_bands != planned || m_envelope_coherence != coherence || m_envelope_range != range) {
+        m_envelope =
+            std::make_shared<const std::vector<float>>(contrast_envelope(*planned, coherence, range, parallel));
+        m_envelope_bands = planned;
         m_envelope_coherence = coherence;
         m_envelope_range = range;
     }
@@ -364,6 +377,8 @@ std::size_t ProgressiveImage::Data::memory()
         total += bytes(bands);
     if (m_log != nullptr)
         total += m_log->luminance.guide.samples.capacity() * sizeof(float);
+    if (m_planned_log != nullptr)
+        total += m_planned_log->plan.memory() + m_planned_log->details.capacity() * sizeof(Detail);
     if (m_channels != nullptr)
         for (const Bands& bands : m_channels->bands)
             total += bytes(bands);

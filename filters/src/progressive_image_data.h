@@ -11,6 +11,7 @@
 #include <pimg/regions.h>
 #include <pimg/sampling.h>
 
+#include "contrast_envelope.h"
 #include "guide.h"
 #include "overview.h"
 #include "smoothing_data.h"
@@ -44,14 +45,18 @@ struct ProgressiveImage::Data {
     const LogBands* log_bands(const ParallelFor& parallel, std::string& error);
     const ChannelBands* channel_bands(const ParallelFor& parallel, std::string& error);
 
+    /// The same bands, after log_bands(), for a sweep more: planned from the second time on, when it pays.
+    std::shared_ptr<const PlannedBands> planned_log_bands(const ParallelFor& parallel);
+
     /// Likewise; `log`: of the logarithms of the channels.
     const SmoothingData& smoothing(bool log);
 
     /// What compression and exposure are found from.
     const Overview* overview(const ParallelFor& parallel, std::string& error);
 
-    /// See contrast_envelope(). Kept for the parameters used last.
-    std::shared_ptr<const std::vector<float>> envelope(float coherence, float range);
+    /// See contrast_envelope(). Kept for what it was last asked for.
+    std::shared_ptr<const std::vector<float>> envelope(const std::shared_ptr<const PlannedBands>& planned, float coherence,
+                                                       float range, const ParallelFor& parallel);
 
     /// A vector that held a raster before, if one is left: new memory would have to be cleared for every new setting.
     std::vector<float> take_scratch();
@@ -83,7 +88,10 @@ private:
     float m_guide_scale = 0.0f;                     ///< see StoredGuide; of luma and rgb guides
     bool m_guide_clipped = false;
     Bands m_log_bands;  ///< if they are not the guide's
+    std::shared_ptr<const PlannedBands> m_planned_log;
+    int m_log_sweeps = 0;
     std::unique_ptr<Overview> m_overview;
+    std::shared_ptr<const PlannedBands> m_envelope_bands;
     float m_envelope_coherence = -1.0f, m_envelope_range = 0.0f;
     std::shared_ptr<const std::vector<float>> m_envelope;
     std::shared_ptr<const RegionTree> m_regions;

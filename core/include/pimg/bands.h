@@ -4,6 +4,7 @@
 // existing hierarchy; a filter is a gain on the details; synthesis is one linear sweep.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include <pimg/hierarchy.h>
@@ -49,12 +50,20 @@ std::vector<float> values_at(const Hierarchy& hierarchy, const Bands& bands, Lev
 template<class Gain>
 void sweep(const Hierarchy& hierarchy, const Bands& bands, float* values, Level levels, Gain&& gain);
 
-/// The same at the finest level without a gain, written to the mesh pixels (row-major), and the residual.
+/// The part of it for the splits [first, last): `values` holds the vertices of level `first` and receives those of level `last`;
+/// detail_of(i) returns the detail of split i.
+template<class DetailOf>
+void sweep_splits(const Hierarchy& hierarchy, Level first, Level last, float* values, DetailOf&& detail_of);
+
+/// sweep() at the finest level without a gain, written to the mesh pixels (row-major), and the residual.
 void synthesise(const Hierarchy& hierarchy, const Bands& bands, float* samples, const ParallelFor& parallel = {});
 
 /// Moves values of the finest level from vertex order to mesh pixels (row-major), and interpolates the
 /// pixels between them: the Gouraud image of the finest mesh.
 void scatter(const Hierarchy& hierarchy, const float* values, float* samples, const ParallelFor& parallel = {});
+
+/// The second half of it.
+void interpolate_between(const Hierarchy& hierarchy, float* samples, const ParallelFor& parallel = {});
 
 /// Adds gain(pixel, residual) to the samples of all mesh pixels; nothing without a residual.
 template<class Gain>
@@ -68,17 +77,28 @@ void values_to_details(const Hierarchy& hierarchy, const float* samples, Bands& 
 template<class Gain>
 void sweep(const Hierarchy& hierarchy, const Bands& bands, float* values, Level levels, Gain&& gain)
 {
-    const Index base = hierarchy.base_vertices();
-    for (Index v = 0; v < base; ++v)
-        values[v] = bands.base[v];
-    const Stencil* stencil = hierarchy.stencils.data();
+    std::copy(bands.base.begin(), bands.base.end(), values);
     const Detail* detail = bands.details.data();
-    for (Level i = 0; i < levels; ++i) {
+    sweep_splits(hierarchy, 0, levels, values, [&](Level i) { return gain(i, detail[i]); });
+}
+
+template<class DetailOf>
+void sweep_splits(const Hierarchy& hierarchy, Level first, Level last, float* values, DetailOf&& detail_of)
+{
+    constexpr Level kAhead = 24;
+    const Stencil* stencil = hierarchy.stencils.data();
+    float* made = values + hierarchy.base_vertices();
+    for (Level i = first; i < last; ++i) {
+        if (i + kAhead < last) {  // where values are is the only thing in no order in memory
+            const Stencil& later = stencil[i + kAhead];
+            for (const Index v : { later.s, later.at, later.bt, later.au, later.bu })
+                __builtin_prefetch(values + v);
+        }
         const Stencil& k = stencil[i];
         const float s = values[k.s];
-        const Detail d = gain(i, detail[i]);
+        const Detail d = detail_of(i);
         const float t = s + (k.wat * (values[k.at] - s) + k.wbt * (values[k.bt] - s)) + d.t;
-        values[base + i] = s + (k.wau * (values[k.au] - s) + k.wbu * (values[k.bu] - s)) + d.u;
+        made[i] = s + (k.wau * (values[k.au] - s) + k.wbu * (values[k.bu] - s)) + d.u;
         values[k.s] = t;
     }
 }

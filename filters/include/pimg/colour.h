@@ -12,9 +12,9 @@
 
 namespace pimg {
 
-/// log2 of `count` positive numbers in place, and its inverse, by processors of OpenColorIO that are built once.
-/// Numbers below 2^-126 count as 2^-126.
+/// log2 of `count` positive numbers in place, by a processor of OpenColorIO that is built once. Numbers below 2^-126 count as 2^-126.
 void log2_in_place(float* values, std::size_t count);
+/// Its inverse, on vectors: several times as fast as a processor. Exponents are clamped to -126..127.
 void exp2_in_place(float* values, std::size_t count);
 
 /// The colour space that a rule of the configuration $OCIO names gives files of that name; empty if only the default
