@@ -136,6 +136,9 @@ ImageSpec file_spec(const ImageBuf& pixels, const PixelTypes& types, const Image
         spec.erase_attribute("oiio:BitsPerSample");
     spec.erase_attribute("textureformat");  // one level of no MIP-map
     spec.tile_width = spec.tile_height = spec.tile_depth = 0;
+    // Files two to three per cent larger than by OpenImageIO's 6, in a third of the time, which was a sixth of all of it.
+    if (spec.find_attribute("png:compressionLevel") == nullptr)
+        spec.attribute("png:compressionLevel", 4);
     spec.set_format(types.all);
     if (int(types.per_channel.size()) == spec.nchannels && out.supports("channelformats"))
         spec.channelformats = types.per_channel;

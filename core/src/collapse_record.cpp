@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <numeric>
+#include <utility>
 
 #include "pixel_stencils.h"
 
@@ -33,62 +33,87 @@ Projection project(Point p, Point s, int degree, const Index* ring, const Point*
 
 namespace {
 
-/// Indices of `records` by increasing order, ties in the order they were done: a radix sort
-/// on the bits of the floats, which are never negative.
-std::vector<Index> sorted(const FlatArray<CollapseRecord>& records)
+constexpr std::size_t kBatch = 1 << 14;
+
+/// A record and its order, as the bits of the float, which is never negative.
+struct Item {
+    std::uint32_t key;
+    Index index;
+};
+
+/// One pass of a radix sort by many threads: parts of `from` are counted, then moved behind each other.
+void move_by_bits(const FlatArray<Item>& from, int shift, int bits, const ParallelFor& parallel, FlatArray<Item>& to)
 {
-    constexpr int kBits = 11, kBuckets = 1 << kBits, kPasses = 3;
-    struct Item {
-        std::uint32_t key;
-        Index index;
+    constexpr std::size_t kParts = 16;
+    const std::size_t n = from.size(), buckets = std::size_t(1) << bits;
+    std::vector<std::vector<std::size_t>> place(kParts);
+    const auto for_part = [&](std::size_t part, const auto& visit) {
+        for (std::size_t i = n * part / kParts; i < n * (part + 1) / kParts; ++i)
+            visit(from[i], place[part][(from[i].key >> shift) & (buckets - 1)]);
     };
+    run(parallel, kParts, [&](std::size_t part) {
+        place[part].resize(buckets);
+        for_part(part, [](const Item&, std::size_t& count) { ++count; });
+    });
+    std::size_t next = 0;
+    for (std::size_t bucket = 0; bucket < buckets; ++bucket)
+        for (std::vector<std::size_t>& counts : place)
+            next += std::exchange(counts[bucket], next);
+    run(parallel, kParts, [&](std::size_t part) {
+        for_part(part, [&](const Item& item, std::size_t& at) { to[at++] = item; });
+    });
+}
+
+/// Indices of `records` by increasing order, ties in the order they were done.
+std::vector<Index> sorted(const FlatArray<CollapseRecord>& records, const ParallelFor& parallel)
+{
+    constexpr int kBits = 11, kPasses = 3;
     const std::size_t n = records.size();
     FlatArray<Item> from, to;
     from.extend(n);
     to.extend(n);
-    std::vector<std::array<std::size_t, kBuckets + 1>> start(kPasses);
-    const auto bucket = [](Item item, int pass) {
-        return (item.key >> (pass * kBits)) & (kBuckets - 1);
+    const auto in_parts = [&](const auto& visit) {
+        run(parallel, (n + kBatch - 1) / kBatch, [&](std::size_t batch) {
+            for (std::size_t i = batch * kBatch; i < std::min(n, (batch + 1) * kBatch); ++i)
+                visit(i);
+        });
     };
-    for (std::size_t i = 0; i < n; ++i) {
+    in_parts([&](std::size_t i) {
         std::memcpy(&from[i].key, &records[i].order, sizeof from[i].key);
         from[i].index = Index(i);
-        for (int pass = 0; pass < kPasses; ++pass)
-            ++start[std::size_t(pass)][bucket(from[i], pass) + 1];
-    }
+    });
     for (int pass = 0; pass < kPasses; ++pass) {
-        auto& place = start[std::size_t(pass)];
-        std::partial_sum(place.begin(), place.end(), place.begin());
-        for (const Item& item : from)
-            to[place[bucket(item, pass)]++] = item;
+        move_by_bits(from, pass * kBits, kBits, parallel, to);
         std::swap(from, to);
     }
     std::vector<Index> by_order(n);
-    std::transform(from.begin(), from.end(), by_order.begin(), [](const Item& item) { return item.index; });
+    in_parts([&](std::size_t i) { by_order[i] = from[i].index; });
     return by_order;
 }
 
-/// Calls visit(i, record) for each split i, coarse to fine. Their order is none in memory: records are fetched ahead, and
-/// then what fetch(record) asks for.
-template<class Fetch, class Visit>
-void in_batches(const std::vector<Index>& by_order, const ParallelFor& parallel,
-                const FlatArray<CollapseRecord>& records, Fetch&& fetch, Visit&& visit)
+std::size_t batches_of(const std::vector<Index>& by_order)
 {
-    constexpr std::size_t kBatch = 1 << 14, kAhead = 32;
-    const std::size_t n = by_order.size();
-    run(parallel, (n + kBatch - 1) / kBatch, [&](std::size_t batch) {
-        const std::size_t last = std::min(n, (batch + 1) * kBatch);
-        for (std::size_t i = batch * kBatch; i < last; ++i) {
-            if (i + kAhead < last) {
-                const CollapseRecord& later = records[by_order[n - 1 - i - kAhead]];
-                __builtin_prefetch(&later);
-                __builtin_prefetch(&later.order);
-            }
-            if (i + kAhead / 2 < last)
-                fetch(records[by_order[n - 1 - i - kAhead / 2]]);
-            visit(i, records[by_order[n - 1 - i]]);
+    return (by_order.size() + kBatch - 1) / kBatch;
+}
+
+/// Calls visit(i, record) for the splits i of a batch, coarse to fine. Their order is none in memory: records are fetched
+/// ahead, and then what fetch(record) asks for.
+template<class Fetch, class Visit>
+void for_batch(std::size_t batch, const std::vector<Index>& by_order, const FlatArray<CollapseRecord>& records,
+               Fetch&& fetch, Visit&& visit)
+{
+    constexpr std::size_t kAhead = 32;
+    const std::size_t n = by_order.size(), last = std::min(n, (batch + 1) * kBatch);
+    for (std::size_t i = batch * kBatch; i < last; ++i) {
+        if (i + kAhead < last) {
+            const CollapseRecord& later = records[by_order[n - 1 - i - kAhead]];
+            __builtin_prefetch(&later);
+            __builtin_prefetch(&later.order);
         }
-    });
+        if (i + kAhead / 2 < last)
+            fetch(records[by_order[n - 1 - i - kAhead / 2]]);
+        visit(i, records[by_order[n - 1 - i]]);
+    }
 }
 
 /// Asks for the entry of a name; of the ghost, too: a wrong address does no harm.
@@ -98,17 +123,39 @@ void prefetch_entry(const std::vector<Index>& number, Index name)
     __builtin_prefetch(reinterpret_cast<const void*>(first + name * sizeof(Index)));
 }
 
-/// Number of each name: base vertices first, then one per split, coarse to fine.
+/// One of several parts of the memory of the hierarchy, which is cleared for it: that takes about as long as filling it.
+void allocate(std::size_t part, std::size_t splits, std::size_t vertices, Hierarchy& h, std::vector<Bands>& bands)
+{
+    if (part == 0)
+        h.stencils.resize(splits);
+    else if (part == 1)
+        h.splits.resize(splits);
+    else if (part == 2) {
+        h.costs.resize(splits);
+        h.pixels.resize(vertices);
+    } else
+        bands[part - 3].details.resize(splits);
+}
+
+/// Number of each name: base vertices first, then one per split, coarse to fine. Memory for the hierarchy is got by
+/// the way.
 std::vector<Index> number_names(std::size_t names, const CollapseSequence& sequence, const std::vector<Index>& by_order,
-                                const ParallelFor& parallel)
+                                const ParallelFor& parallel, Hierarchy& h, std::vector<Bands>& bands)
 {
     std::vector<Index> number(names);
     for (std::size_t v = 0; v < sequence.base.size(); ++v)
         number[sequence.base[v].name] = Index(v);
     const Index base = Index(sequence.base.size());
-    in_batches(
-        by_order, parallel, sequence.records, [&](const CollapseRecord& r) { prefetch_entry(number, r.u); },
-        [&](std::size_t i, const CollapseRecord& r) { number[r.u] = base + Index(i); });
+    const std::size_t parts = 3 + bands.size();
+    run(parallel, parts + batches_of(by_order), [&](std::size_t task) {
+        if (task < parts)
+            allocate(task, by_order.size(), names, h, bands);
+        else
+            for_batch(
+                task - parts, by_order, sequence.records,
+                [&](const CollapseRecord& r) { prefetch_entry(number, r.u); },
+                [&](std::size_t i, const CollapseRecord& r) { number[r.u] = base + Index(i); });
+    });
     return number;
 }
 
@@ -128,29 +175,6 @@ void fill_base(const std::vector<BaseVertex>& base, const std::vector<Index>& nu
     }
 }
 
-/// Sorts the records while other threads get the memory for the hierarchy, which takes as long.
-std::vector<Index> sort_and_allocate(const CollapseSequence& sequence, std::size_t vertices,
-                                     const ParallelFor& parallel, Hierarchy& h, std::vector<Bands>& bands)
-{
-    const std::size_t n = sequence.records.size();
-    std::vector<Index> by_order;
-    run(parallel, 4, [&](std::size_t task) {
-        if (task == 0)
-            by_order = sorted(sequence.records);
-        else if (task == 1)
-            h.splits.resize(n);
-        else if (task == 2)
-            h.stencils.resize(n);
-        else {
-            h.costs.resize(n);
-            h.pixels.resize(vertices);
-            for (Bands& b : bands)
-                b.details.resize(n);
-        }
-    });
-    return by_order;
-}
-
 /// Splits, stencils and costs in coarse-to-fine order; details hold the true intensities of t and u for now.
 void fill_splits(const CollapseSequence& sequence, const std::vector<Index>& by_order, const std::vector<Index>& number,
                  const ParallelFor& parallel, Hierarchy& h, std::vector<Bands>& bands)
@@ -164,7 +188,7 @@ void fill_splits(const CollapseSequence& sequence, const std::vector<Index>& by_
         for (Index name : { r.split.s, r.split.vl, r.split.vr, k.at, k.bt, k.au, k.bu })
             prefetch_entry(number, name);
     };
-    in_batches(by_order, parallel, sequence.records, fetch, [&](std::size_t i, const CollapseRecord& r) {
+    const auto fill = [&](std::size_t i, const CollapseRecord& r) {
         h.splits[i] = { number[r.split.s], renumber(r.split.vl), renumber(r.split.vr), r.split.t, r.split.u };
         h.stencils[i] = { number[r.stencil.s],  number[r.stencil.at], number[r.stencil.bt],
                           number[r.stencil.au], number[r.stencil.bu], r.stencil.wat,
@@ -173,13 +197,13 @@ void fill_splits(const CollapseSequence& sequence, const std::vector<Index>& by_
         bands[0].details[i] = { r.zt, r.zu };
         for (std::size_t c = 0; c < more; ++c)
             bands[c + 1].details[i] = sequence.more[by_order[n - 1 - i] * more + c];
-    });
+    };
+    run(parallel, batches_of(by_order), [&](std::size_t batch) { for_batch(batch, by_order, sequence.records, fetch, fill); });
 }
 
 /// Pixels of the finest mesh: of vertices by their number, and those between.
 void fill_pixels(const Finest& finest, const std::vector<Index>& number, Hierarchy& h)
 {
-    constexpr std::size_t kBatch = 1 << 16;
     run(finest.parallel, (number.size() + kBatch - 1) / kBatch, [&](std::size_t batch) {
         for (std::size_t name = batch * kBatch; name < std::min(number.size(), (batch + 1) * kBatch); ++name)
             h.pixels[number[name]] = finest.initial ? finest.initial->pixels[name] : Index(name);
@@ -201,19 +225,23 @@ Status assemble(int width, int height, const Finest& finest, CollapseSequence&& 
     std::vector<Bands> b(std::size_t(sequence.channels));
     h.width = width;
     h.height = height;
-    std::vector<Index> number;
-    {
-        const CollapseSequence done = std::move(sequence);
-        const std::size_t names = finest.initial ? finest.initial->pixels.size() : h.mesh_pixels();
-        const std::vector<Index> by_order = sort_and_allocate(done, names, finest.parallel, h, b);
-        number = number_names(names, done, by_order, finest.parallel);
-        fill_base(done.base, number, h, b);
-        fill_splits(done, by_order, number, finest.parallel, h, b);
-    }
+    CollapseSequence done = std::move(sequence);
+    const std::size_t names = finest.initial ? finest.initial->pixels.size() : h.mesh_pixels();
+    std::vector<Index> by_order = sorted(done.records, finest.parallel);
+    std::vector<Index> number = number_names(names, done, by_order, finest.parallel, h, b);
+    fill_base(done.base, number, h, b);
+    fill_splits(done, by_order, number, finest.parallel, h, b);
     fill_pixels(finest, number, h);
-    std::vector<Index>().swap(number);
-    for (std::size_t c = 0; c < b.size(); ++c)
-        values_to_details(h, finest.guide.channels[c].samples, b[c]);
+    run(finest.parallel, 1 + b.size(), [&](std::size_t task) {
+        if (task > 0) {
+            values_to_details(h, finest.guide.channels[task - 1].samples, b[task - 1]);
+            return;
+        }
+        // Giving memory back takes as long as a channel.
+        done = {};
+        std::vector<Index>().swap(by_order);
+        std::vector<Index>().swap(number);
+    });
     const Level level = h.level_of_faces(base_faces);
     Status status = level > 0 ? rebase(h, b, level, finest.parallel) : Status();
     if (status) {

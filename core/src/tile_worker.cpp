@@ -19,8 +19,8 @@ namespace HWY_NAMESPACE {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// Shares of the limit through which a tile approaches it: powers of 4^(1/6).
-constexpr float kSteps[] = { 0.31498026f, 0.39685026f, 0.5f, 0.62996052f, 0.79370052f, 1.0f };
+/// Shares of the limit through which a tile approaches it: powers of 4^(1/4).
+constexpr float kSteps[] = { 0.35355339f, 0.5f, 0.70710678f, 1.0f };
 
 // Keys that save evaluations and change no quality (docs/internals.md): what an untouched vertex is filed under, as a
 // share of its own fan's error at the end of an edge; and, as multiples of the cost of a collapse, the key of the vertex

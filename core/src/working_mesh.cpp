@@ -64,7 +64,7 @@ WorkingMesh::WorkingMesh(const Guide& guide, const ParallelFor& parallel)
     const std::size_t n = std::size_t(guide.width) * std::size_t(guide.height);
     allocate(guide, n);
     std::vector<Index> number_of(n);
-    number_vertices(guide.width, guide.height, number_of);
+    number_vertices(guide.width, guide.height, parallel, number_of);
     run(parallel, std::size_t((guide.height + kTile - 1) / kTile), [&](std::size_t i) {
         build_rows(guide, int(i) * kTile, std::min(guide.height, int(i + 1) * kTile), number_of);
     });
@@ -92,15 +92,22 @@ void WorkingMesh::allocate(const Guide& guide, std::size_t vertices)
     m_alive = Index(vertices);
 }
 
-void WorkingMesh::number_vertices(int width, int height, std::vector<Index>& number_of)
+void WorkingMesh::number_vertices(int width, int height, const ParallelFor& parallel, std::vector<Index>& number_of)
 {
+    std::vector<PixelTile> pixels;
     Index next = 0;
     for_tiles(width, height, [&](const PixelTile& t) {
         const Index first = next;
+        next += Index(t.x1 - t.x0) * Index(t.y1 - t.y0);
+        tiles.push_back({ first, next, t.x, t.y });
+        pixels.push_back(t);
+    });
+    run(parallel, tiles.size(), [&](std::size_t i) {
+        const PixelTile& t = pixels[i];
+        Index number = tiles[i].first;
         for (int y = t.y0; y < t.y1; ++y)
             for (int x = t.x0; x < t.x1; ++x)
-                number_of[std::size_t(y) * std::size_t(width) + std::size_t(x)] = next++;
-        tiles.push_back({ first, next, t.x, t.y });
+                number_of[std::size_t(y) * std::size_t(width) + std::size_t(x)] = number++;
     });
 }
 
@@ -234,31 +241,60 @@ std::size_t WorkingMesh::bytes() const
     return nodes.size() * (sizeof(Node) + sizeof(Ring) + sizeof(float)) + more.size() * sizeof(ChannelSums);
 }
 
+/// Moves the living of a tile to its beginning and returns how many they are. `number_of` receives their places in it.
+Index WorkingMesh::close_ranks(const Tile& tile, std::vector<Index>& number_of)
+{
+    Index next = tile.first;
+    for (Index v = tile.first; v < tile.last; ++v)
+        if (nodes[v].degree > 0) {
+            number_of[v] = next - tile.first;
+            nodes[next] = nodes[v];
+            rings[next] = rings[v];
+            keys[next] = keys[v];
+            std::copy(more_of(v), more_of(v) + more_channels, more_of(next));
+            ++next;
+        }
+    return next - tile.first;
+}
+
 void WorkingMesh::compact_if_sparse(const ParallelFor& parallel)
 {
     if (std::size_t(m_alive) * 2 > nodes.size())
         return;
     std::vector<Index> number_of(nodes.size());
+    const std::vector<Tile> before = tiles;
+    std::vector<Index> counts(tiles.size());
+    run(parallel, tiles.size(), [&](std::size_t i) { counts[i] = close_ranks(tiles[i], number_of); });
     Index next = 0;
-    for (Tile& tile : tiles) {
-        const Index first = next;
-        for (Index v = tile.first; v < tile.last; ++v)
-            if (nodes[v].degree > 0) {
-                number_of[v] = next;
-                nodes[next] = nodes[v];
-                rings[next] = rings[v];
-                keys[next] = keys[v];
-                std::copy(more_of(v), more_of(v) + more_channels, more_of(next));
-                ++next;
-            }
-        tile.first = first;
-        tile.last = next;
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        tiles[i].first = next;
+        tiles[i].last = next += counts[i];
     }
-    nodes.shrink(next);
-    rings.shrink(next);
-    keys.shrink(next);
-    more.resize(std::size_t(next) * std::size_t(more_channels));
-    more.shrink_to_fit();
+    const auto close_up = [&](auto& array, std::size_t each) {
+        for (std::size_t i = 0; i < tiles.size(); ++i) {
+            const auto from = array.begin() + std::ptrdiff_t(before[i].first * each);
+            std::copy(from, from + std::ptrdiff_t(counts[i] * each), array.begin() + std::ptrdiff_t(tiles[i].first * each));
+        }
+    };
+    run(parallel, 3, [&](std::size_t task) {
+        if (task == 0) {
+            close_up(nodes, 1);
+            nodes.shrink(next);
+        } else if (task == 1) {
+            close_up(rings, 1);
+            rings.shrink(next);
+        } else {
+            close_up(keys, 1);
+            keys.shrink(next);
+            close_up(more, std::size_t(more_channels));
+            more.resize(std::size_t(next) * std::size_t(more_channels));
+            more.shrink_to_fit();
+        }
+    });
+    run(parallel, tiles.size(), [&](std::size_t i) {
+        for (Index v = before[i].first; v < before[i].last; ++v)
+            number_of[v] += tiles[i].first;
+    });
     run(parallel, tiles.size(), [&](std::size_t i) {
         for (Index v = tiles[i].first; v < tiles[i].last; ++v)
             for (int j = 0; j < nodes[v].degree; ++j) {

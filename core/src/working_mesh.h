@@ -52,7 +52,7 @@ constexpr Index kNoVertex = kGhost - 1;
 class WorkingMesh {
 public:
     /// Side of a finest tile in pixels, and of a block.
-    static constexpr int kTile = 64, kBlock = kTile / 2;
+    static constexpr int kTile = 32, kBlock = kTile / 2;
 
     FlatArray<Node> nodes;
     FlatArray<Ring> rings;  ///< padded with kNoVertex
@@ -96,11 +96,12 @@ private:
         __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(first) + v * size));
     }
     void allocate(const Guide& guide, std::size_t vertices);
-    void number_vertices(int width, int height, std::vector<Index>& number_of);
+    void number_vertices(int width, int height, const ParallelFor& parallel, std::vector<Index>& number_of);
     void number_vertices(const InitialMesh& initial, std::vector<Index>& number_of);
     void place(Index v, const Guide& guide, Index pixel, Index name);
     void build_rows(const Guide& guide, int first, int last, const std::vector<Index>& number_of);
     void build_rings(const InitialMesh& initial, const std::vector<Index>& number_of);
+    Index close_ranks(const Tile& tile, std::vector<Index>& number_of);
     void merge_tiles();
     void merge_small_tiles();
 

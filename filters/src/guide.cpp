@@ -100,9 +100,10 @@ std::vector<SpecialSample> repair(OIIO::ImageBuf& picture, const Colour& colour,
     const OIIO::ImageSpec spec = picture.spec();
     std::vector<std::vector<SpecialSample>> found(std::size_t(spec.height));
     for_rows(parallel, 0, spec.height, [&](int y) {
-        for (int x = 0; x < spec.width; ++x)
+        const float* samples = pixel(picture, 0, y);
+        for (int x = 0; x < spec.width; ++x, samples += spec.nchannels)
             for (int i = 0; i < colour.count(); ++i) {
-                const float value = pixel(picture, x, y)[colour.channel(i)];
+                const float value = samples[colour.channel(i)];
                 if (!std::isfinite(value))
                     found[std::size_t(y)].push_back(
                         { Index(y) * Index(spec.width) + Index(x), colour.channel(i), value });

@@ -146,6 +146,17 @@ void crop_to_picture(const Hierarchy& hierarchy, std::vector<float>& samples)
     samples.resize(width * height);
 }
 
+bool copy_as_float(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src)
+{
+    const bool packed = src.pixel_stride() == OIIO::stride_t(src.spec().pixel_bytes());
+    if (src.localpixels() == nullptr || packed)
+        return dst.copy(src, OIIO::TypeDesc::FLOAT);
+    OIIO::ImageSpec spec = src.spec();
+    spec.set_format(OIIO::TypeDesc::FLOAT);
+    dst.reset(spec);
+    return src.get_pixels(src.roi(), OIIO::TypeDesc::FLOAT, dst.localpixels());
+}
+
 bool build_source(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, int nthreads, ProgressiveImage& progressive)
 {
     if (progressive.build(src, {}, nthreads))

@@ -84,6 +84,9 @@ bool run_filter(OIIO::ImageBuf& dst, const Options& options, Body&& body)
     return false;
 }
 
+/// Copies a picture as float. OpenImageIO 2.4's own copy takes pixels that have gaps between them as if they had none.
+bool copy_as_float(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src);
+
 /// Builds the progressive image for the overloads that take a plain picture.
 bool build_source(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, int nthreads, ProgressiveImage& progressive);
 

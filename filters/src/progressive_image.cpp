@@ -10,6 +10,7 @@
 #include <OpenImageIO/strutil.h>
 
 #include "contrast_envelope.h"
+#include "image_filter.h"
 #include "lab.h"
 #include "parallel.h"
 #include "progressive_image_data.h"
@@ -80,18 +81,6 @@ bool parse_weights(const std::string& text, std::size_t channels, std::vector<fl
     error = OIIO::Strutil::fmt::format("weights=\"{}\": expected {} number{} above 0, one for each channel of the guide", text,
                                        channels, channels == 1 ? "" : "s");
     return false;
-}
-
-/// OpenImageIO 2.4 copies pixels that have gaps between them as if there were none.
-bool copy_as_float(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src)
-{
-    const bool packed = src.pixel_stride() == OIIO::stride_t(src.spec().pixel_bytes());
-    if (src.localpixels() == nullptr || packed)
-        return dst.copy(src, OIIO::TypeDesc::FLOAT);
-    OIIO::ImageSpec spec = src.spec();
-    spec.set_format(OIIO::TypeDesc::FLOAT);
-    dst.reset(spec);
-    return src.get_pixels(src.roi(), OIIO::TypeDesc::FLOAT, dst.localpixels());
 }
 
 std::size_t bytes(const Bands& bands)

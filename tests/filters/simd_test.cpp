@@ -7,7 +7,10 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include <OpenImageIO/color.h>
+
 #include <pimg/colour.h>
+#include <pimg/display.h>
 
 #include "core/pictures.h"
 #include "detail_gain.h"
@@ -80,6 +83,20 @@ TEST(FilterVectors, PowersOfTwo)
         const double expected = std::exp2(double(std::min(std::max(x[i], -126.0f), 127.0f)));
         EXPECT_NEAR(double(y[i]) / expected, 1.0, 2.5e-7) << x[i];
     }
+}
+
+TEST(FilterVectors, SrgbCurve)
+{
+    const std::vector<float> x = numbers(-0.5f, 2.0f, 10);
+    const auto make = [&](std::size_t first, std::size_t count) {
+        std::vector<float> y = part_of(x, first, count);
+        srgb_in_place(y.data(), count);
+        return y;
+    };
+    expect_same_bits(make);
+    const std::vector<float> y = make(0, kCount);
+    for (std::size_t i = 0; i < kCount; ++i)
+        EXPECT_NEAR(y[i], OIIO::linear_to_sRGB(x[i]), 5e-7f);
 }
 
 TEST(FilterVectors, GainsOfContrasts)
