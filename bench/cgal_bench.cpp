@@ -11,6 +11,8 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_cost.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
 
+#include "quality.h"
+
 namespace bench {
 const std::vector<float>& guide(int size);
 }
@@ -38,6 +40,15 @@ SurfaceMesh height_field(int size)
     return mesh;
 }
 
+/// Down to a number of edges.
+void collapse(SurfaceMesh& mesh, std::size_t edges)
+{
+    simplification::Count_stop_predicate<SurfaceMesh> stop(edges);
+    simplification::edge_collapse(mesh, stop,
+                                  CGAL::parameters::get_cost(simplification::LindstromTurk_cost<SurfaceMesh>())
+                                      .get_placement(simplification::LindstromTurk_placement<SurfaceMesh>()));
+}
+
 void cgal(benchmark::State& state)
 {
     const int size = int(state.range(0));
@@ -46,14 +57,37 @@ void cgal(benchmark::State& state)
         state.PauseTiming();
         SurfaceMesh mesh = original;
         state.ResumeTiming();
-        // About 128 faces of a planar mesh have 3/2 as many edges.
-        simplification::Count_stop_predicate<SurfaceMesh> stop(192);
-        simplification::edge_collapse(mesh, stop,
-                                      CGAL::parameters::get_cost(simplification::LindstromTurk_cost<SurfaceMesh>())
-                                          .get_placement(simplification::LindstromTurk_placement<SurfaceMesh>()));
+        collapse(mesh, 192);  // about 128 faces of a planar mesh have 3/2 as many edges
     }
     state.SetItemsProcessed(state.iterations() * std::int64_t(size) * size);
 }
 BENCHMARK(cgal)->Arg(512)->Iterations(1)->Unit(benchmark::kMillisecond);
+
+void quality_cgal(benchmark::State& state)
+{
+    const int size = int(state.range(0));
+    SurfaceMesh mesh;
+    for (auto _ : state) {
+        mesh = height_field(size);
+        for (std::size_t share = 0; share < bench::kShares.size(); ++share) {
+            const std::size_t wanted = std::size_t(bench::kShares[share] * size * size);
+            while (mesh.number_of_vertices() > wanted)  // an edge of the border takes two others with it, not three
+                collapse(mesh, mesh.number_of_edges() - 3 * (mesh.number_of_vertices() - wanted) + 2);
+            mesh.collect_garbage();
+            std::vector<bench::Vertex> vertices;
+            for (const SurfaceMesh::Vertex_index v : mesh.vertices())
+                vertices.push_back({ mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z() });
+            std::vector<std::array<unsigned, 3>> triangles;
+            for (const SurfaceMesh::Face_index f : mesh.faces()) {
+                auto corner = mesh.vertices_around_face(mesh.halfedge(f)).begin();
+                const unsigned a = *corner++, b = *corner++, c = *corner;
+                triangles.push_back({ a, b, c });
+            }
+            bench::report_quality(state, share, size, vertices, triangles);
+        }
+    }
+    state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(quality_cgal)->Arg(512)->Iterations(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <meshoptimizer.h>
 
 #include "pictures.h"
+#include "quality.h"
 
 namespace {
 
@@ -59,5 +60,30 @@ void meshopt_free(benchmark::State& state)
     simplify(state, 0.02f, 0);
 }
 BENCHMARK(meshopt_free)->Arg(512)->Arg(1024)->Unit(benchmark::kMillisecond);
+
+void quality_meshopt(benchmark::State& state)
+{
+    constexpr float kZ = 0.02f;
+    const int size = int(state.range(0));
+    const HeightField mesh = height_field(size, kZ);
+    std::vector<bench::Vertex> vertices;
+    for (std::size_t i = 0; i < mesh.points.size(); i += 3)
+        vertices.push_back({ double(mesh.points[i]), double(mesh.points[i + 1]), double(mesh.points[i + 2] / kZ) });
+    for (auto _ : state)
+        for (std::size_t share = 0; share < bench::kShares.size(); ++share) {
+            std::vector<unsigned> simpler(mesh.corners.size());
+            float error = 0.0f;
+            simpler.resize(meshopt_simplify(simpler.data(), mesh.corners.data(), mesh.corners.size(), mesh.points.data(),
+                                            vertices.size(), 3 * sizeof(float),
+                                            std::size_t(bench::kShares[share] * double(mesh.corners.size())) / 3 * 3, 1e9f,
+                                            0, &error));
+            std::vector<std::array<unsigned, 3>> triangles;
+            for (std::size_t i = 0; i < simpler.size(); i += 3)
+                triangles.push_back({ simpler[i], simpler[i + 1], simpler[i + 2] });
+            bench::report_quality(state, share, size, vertices, triangles);
+        }
+    state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(quality_meshopt)->Arg(512)->Iterations(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
