@@ -120,7 +120,7 @@ run_docs() {
 }
 
 run_bench() {
-    packages+=(libmeshoptimizer-dev pfstools pfstmo)
+    packages+=(libmeshoptimizer-dev pfstools pfstmo luminance-hdr)
     setup
     say "building the benchmarks in $build"
     mkdir -p build

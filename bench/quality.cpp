@@ -65,7 +65,7 @@ void quality_pimg(benchmark::State& state)
     }
     state.SetItemsProcessed(state.iterations());
 }
-BENCHMARK(quality_pimg)->Arg(512)->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(quality_pimg)->Arg(512)->Iterations(1)->Repetitions(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

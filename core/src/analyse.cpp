@@ -78,7 +78,8 @@ VolumeStencil volume_stencil(const Mesh& fine, Index s, Index u, Point coarse)
 
 }  // namespace
 
-Status analyse(const Hierarchy& h, const std::vector<const float*>& channels, std::vector<Bands>& bands)
+Status analyse(const Hierarchy& h, const std::vector<const float*>& channels, std::vector<Bands>& bands,
+               const ParallelFor& parallel)
 {
     Mesh mesh;
     std::vector<Point> coarse(h.levels());
@@ -88,13 +89,26 @@ Status analyse(const Hierarchy& h, const std::vector<const float*>& channels, st
     const Index base = h.base_vertices();
     std::vector<std::vector<float>> values(channels.size(), std::vector<float>(h.vertices()));
     bands.assign(channels.size(), {});
-    for (std::size_t c = 0; c < channels.size(); ++c) {
+    run(parallel, channels.size(), [&](std::size_t c) {
         bands[c].details.resize(h.levels());
         for (Index v = 0; v < h.vertices(); ++v)
             values[c][v] = channels[c][h.pixels[v]];
-    }
+    });
+    constexpr Level kAhead = 16;  // splits are in no order in memory
+    const auto fetch_values = [&](Index of) {
+        for (const Index q : mesh.ring(of))
+            for (const std::vector<float>& z : values)
+                __builtin_prefetch(z.data() + (q == kGhost ? 0 : q));
+    };
     for (Level i = h.levels(); i-- > 0;) {
         const Index s = h.splits[i].s, u = base + i;
+        if (i >= kAhead) {
+            mesh.prefetch(h.splits[i - kAhead].s);
+            for (const Index later : { h.splits[i - kAhead / 2].s, u - kAhead / 2 }) {
+                mesh.prefetch_around(later);
+                fetch_values(later);
+            }
+        }
         const VolumeStencil stencil = volume_stencil(mesh, s, u, coarse[i]);
         for (std::size_t c = 0; c < channels.size(); ++c) {
             float* z = values[c].data();
@@ -107,10 +121,10 @@ Status analyse(const Hierarchy& h, const std::vector<const float*>& channels, st
         if (!mesh.collapse(s, coarse[i]))
             return Status::failure("hierarchy: split " + std::to_string(i) + " cannot be undone");
     }
-    for (std::size_t c = 0; c < channels.size(); ++c) {
+    run(parallel, channels.size(), [&](std::size_t c) {
         bands[c].base.assign(values[c].begin(), values[c].begin() + base);
         values_to_details(h, channels[c], bands[c]);
-    }
+    });
     return {};
 }
 

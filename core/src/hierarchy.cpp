@@ -53,8 +53,13 @@ Status refine(const Hierarchy& h, Level level, Mesh& mesh, std::vector<Point>* c
     if (coarse)
         coarse->resize(level);
     m.reserve(std::size_t(h.base_vertices()) + level);
+    constexpr Level kAhead = 16;  // splits are in no order in memory
     for (Level i = 0; i < level; ++i) {
         const Split& s = h.splits[i];
+        if (i + kAhead < level) {
+            m.prefetch(h.splits[i + kAhead].s);
+            m.prefetch_around(h.splits[i + kAhead / 2].s);
+        }
         if (coarse && s.s < m.size())
             (*coarse)[i] = m.point(s.s);
         if (s.s >= m.size() || !m.split(s.s, s.vl, s.vr, s.t, s.u))

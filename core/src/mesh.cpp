@@ -80,6 +80,22 @@ std::size_t Mesh::triangle_count() const
     return corners / 3;
 }
 
+void Mesh::prefetch(Index v) const
+{
+    if (v >= size())
+        return;
+    __builtin_prefetch(&m_rings[v]);
+    __builtin_prefetch(&m_points[v]);
+    __builtin_prefetch(&m_degrees[v]);
+}
+
+void Mesh::prefetch_around(Index v) const
+{
+    if (v < size())
+        for (const Index q : ring(v))
+            prefetch(q);
+}
+
 bool Mesh::split(Index s, Index vl, Index vr, Point t, Point u)
 {
     const int degree = m_degrees[s];
@@ -88,7 +104,10 @@ bool Mesh::split(Index s, Index vl, Index vr, Point t, Point u)
         return false;
     const Index born = size();
     // t keeps the neighbours from vr to vl, u takes those from vl to vr.
-    const int kept = (left - right + degree) % degree + 1, moved = (right - left + degree) % degree + 1;
+    const auto wrapped = [degree](int place) {
+        return place < degree ? place : place - degree;
+    };
+    const int kept = wrapped(left - right + degree) + 1, moved = wrapped(right - left + degree) + 1;
     const auto degree_of = [&](Index q) { return q == kGhost ? 0 : int(m_degrees[q]); };
     if (kept + 1 > kMaxDegree || moved + 1 > kMaxDegree || degree_of(vl) + 1 > kMaxDegree
         || degree_of(vr) + 1 > kMaxDegree)
@@ -97,10 +116,10 @@ bool Mesh::split(Index s, Index vl, Index vr, Point t, Point u)
     const Ring old = m_rings[s];
     Ring ring_t {}, ring_u {};
     for (int k = 0; k < kept; ++k)
-        ring_t.v[std::size_t(k)] = old.v[std::size_t((right + k) % degree)];
+        ring_t.v[std::size_t(k)] = old.v[std::size_t(wrapped(right + k))];
     ring_t.v[std::size_t(kept)] = born;
     for (int k = 0; k < moved; ++k) {
-        const Index q = old.v[std::size_t((left + k) % degree)];
+        const Index q = old.v[std::size_t(wrapped(left + k))];
         ring_u.v[std::size_t(k)] = q;
         if (k > 0 && k + 1 < moved && q != kGhost)
             replace(m_rings[q], m_degrees[q], s, born);
@@ -135,16 +154,19 @@ bool Mesh::collapse(Index s, Point p)
     const int degree_s = m_degrees[s], degree_u = m_degrees[u];
     if (s == u || at < 0 || back < 0 || degree_s + degree_u - 4 > kMaxDegree || degree_s + degree_u - 4 < 3)
         return false;
+    const auto at_place = [](const Ring& ring, int degree, int place) {
+        return ring.v[std::size_t(place < degree ? place : place - degree)];
+    };
     Ring merged {};
     int n = 0;
     for (int k = 1; k < degree_s; ++k)
-        merged.v[std::size_t(n++)] = m_rings[s].v[std::size_t((at + k) % degree_s)];
+        merged.v[std::size_t(n++)] = at_place(m_rings[s], degree_s, at + k);
     const Index vr = merged.v[0], vl = merged.v[std::size_t(n - 1)];
     for (Index q : { vl, vr })
         if (q != kGhost && m_degrees[q] <= 3)
             return false;
     for (int k = 2; k + 1 < degree_u; ++k) {
-        const Index q = m_rings[u].v[std::size_t((back + k) % degree_u)];
+        const Index q = at_place(m_rings[u], degree_u, back + k);
         if (find(m_rings[s], degree_s, q) >= 0)
             return false;
         merged.v[std::size_t(n++)] = q;

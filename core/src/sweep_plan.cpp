@@ -14,6 +14,7 @@ constexpr int kTileBits = 6;
 constexpr Index kTile = 1 << kTileBits;  ///< side of a tile, in pixels
 constexpr Level kTogether = 16384;  ///< splits of the first stage: with fewer vertices, faces are larger than tiles
 constexpr Level kTaskSplits = 1024;  ///< at least, of several tiles if need be
+
 /// Where the value of every mesh pixel is: tile by tile, row by row.
 class Places {
 public:
@@ -136,6 +137,32 @@ void sort_by(std::size_t keys, Key&& key, std::vector<Scheduled>& all)
         all[start[key(s.turn)]++] = s;
 }
 
+/// All splits by stage, then tile, then as they were.
+std::vector<Scheduled> in_turn(const Hierarchy& h, const std::vector<Index>& places, Index tiles)
+{
+    std::vector<Scheduled> all = schedule(h, places);
+    sort_by(tiles + 1, [tiles](Turn turn) { return std::min(turn.tile(), tiles); }, all);
+    sort_by(Turn::kLastStage + 1, [](Turn turn) { return turn.stage(); }, all);
+    return all;
+}
+
+/// Whole tiles of one stage each.
+std::vector<SweepTask> tasks_of(const std::vector<Scheduled>& all)
+{
+    std::vector<SweepTask> tasks;
+    std::size_t before = 0;  // tasks of earlier stages
+    for (Level i = 0; i < Level(all.size()); ++i) {
+        const bool fresh_stage = i == 0 || all[i].turn.stage() != all[i - 1].turn.stage();
+        const bool fresh_tile = fresh_stage || all[i].turn.tile() != all[i - 1].turn.tile();
+        if (fresh_stage)
+            before = tasks.size();
+        if (fresh_stage || (fresh_tile && i - tasks.back().first >= kTaskSplits))
+            tasks.push_back({ i, i, before });
+        tasks.back().last = i + 1;
+    }
+    return tasks;
+}
+
 /// Calls visit(i) for every i below n.
 template<class Visit>
 void in_batches(const ParallelFor& parallel, std::size_t n, Visit&& visit)
@@ -149,26 +176,27 @@ void in_batches(const ParallelFor& parallel, std::size_t n, Visit&& visit)
 
 }  // namespace
 
-SweepPlan::SweepPlan(const Hierarchy& h, const ParallelFor& parallel) : m_levels(h.levels()), m_order(h.levels())
+SweepPlan::SweepPlan(const Hierarchy& h, const ParallelFor& parallel)
 {
-    const Places places_of(h);
-    m_places = places_of.count();
+    const Places grid(h);
+    if (grid.count() > 4 * h.mesh_pixels() + kTile * kTile) {  // tiles would be all but empty
+        *this = as_it_is(h);
+        return;
+    }
     std::vector<Index> places(h.vertices());
-    in_batches(parallel, places.size(), [&](std::size_t v) { places[v] = places_of.of(h.pixels[v]); });
+    in_batches(parallel, places.size(), [&](std::size_t v) { places[v] = grid.of(h.pixels[v]); });
+    const std::vector<Scheduled> all = in_turn(h, places, grid.tiles());
+    m_levels = h.levels();
+    m_places = grid.count();
     m_base.assign(places.begin(), places.begin() + h.base_vertices());
-
-    std::vector<Scheduled> all = schedule(h, places);
-    const Index tiles = places_of.tiles();
-    sort_by(tiles + 1, [tiles](Turn turn) { return std::min(turn.tile(), tiles); }, all);
-    sort_by(Turn::kLastStage + 1, [](Turn turn) { return turn.stage(); }, all);
-
-    // Not cleared before it is filled: threads share the page faults.
-    m_splits.reset(new PlannedSplit[all.size()]);
-    in_batches(parallel, all.size(), [&](std::size_t j) {
+    m_tasks = tasks_of(all);
+    m_order.resize(m_levels);
+    m_splits.reset(new PlannedSplit[m_levels]);  // not cleared before it is filled: threads share the page faults
+    in_batches(parallel, m_levels, [&](std::size_t j) {
         constexpr std::size_t kAhead = 16;
-        if (j + 2 * kAhead < all.size())
+        if (j + 2 * kAhead < m_levels)
             __builtin_prefetch(&h.stencils[all[j + 2 * kAhead].split]);
-        if (j + kAhead < all.size())
+        if (j + kAhead < m_levels)
             prefetch(places, h.stencils[all[j + kAhead].split]);
         const Level i = all[j].split;
         const Stencil& k = h.stencils[i];
@@ -176,17 +204,6 @@ SweepPlan::SweepPlan(const Hierarchy& h, const ParallelFor& parallel) : m_levels
         m_splits[j] = { places[k.s],  places[k.at], places[k.bt], places[k.au], places[k.bu],
                         places[h.base_vertices() + i], k.wat, k.wbt, k.wau, k.wbu };
     });
-
-    std::size_t before = 0;  // tasks of earlier stages
-    for (Level i = 0; i < levels(); ++i) {
-        const bool fresh_stage = i == 0 || all[i].turn.stage() != all[i - 1].turn.stage();
-        const bool fresh_tile = fresh_stage || all[i].turn.tile() != all[i - 1].turn.tile();
-        if (fresh_stage)
-            before = m_tasks.size();
-        if (fresh_stage || (fresh_tile && i - m_tasks.back().first >= kTaskSplits))
-            m_tasks.push_back({ i, i, before });
-        m_tasks.back().last = i + 1;
-    }
 }
 
 SweepPlan SweepPlan::as_it_is(const Hierarchy& hierarchy)
@@ -257,8 +274,8 @@ void SweepPlan::scatter(const Hierarchy& h, const float* values, float* samples,
 
 std::size_t SweepPlan::memory() const
 {
-    return m_base.capacity() * sizeof(Index) + m_order.size() * sizeof(PlannedSplit)
-           + m_order.capacity() * sizeof(Level) + m_tasks.capacity() * sizeof(Task);
+    return m_base.capacity() * sizeof(Index) + m_order.capacity() * sizeof(PlannedSplit)
+           + m_order.capacity() * sizeof(Level) + m_tasks.capacity() * sizeof(SweepTask);
 }
 
 }  // namespace pimg

@@ -59,17 +59,20 @@ void compress_residual(const Hierarchy& hierarchy, const Bands& bands, const Det
     if (bands.residual.empty())
         return;
     // At the vertices the residual is rounding only.
-    std::vector<float> gains;
-    gains.reserve(hierarchy.between.size());
-    for (const PixelStencil& k : hierarchy.between) {
-        const auto [least, most] = std::minmax({ picture[k.a], picture[k.b], picture[k.c] });
-        const float own = std::fabs(bands.residual[k.pixel]);
-        gains.push_back(coherence > 0.0f ? std::max(own, most - least) : own);
-    }
-    gain.apply(gains.data(), gains.size());
-    for (std::size_t i = 0; i < gains.size(); ++i) {
-        const Index pixel = hierarchy.between[i].pixel;
-        compressed[pixel] += gains[i] * bands.residual[pixel];
+    constexpr std::size_t kBatch = 256;
+    const std::vector<PixelStencil>& between = hierarchy.between;
+    for (std::size_t first = 0; first < between.size(); first += kBatch) {
+        const std::size_t count = std::min(kBatch, between.size() - first);
+        float gains[kBatch];
+        for (std::size_t i = 0; i < count; ++i) {
+            const PixelStencil& k = between[first + i];
+            const auto [least, most] = std::minmax({ picture[k.a], picture[k.b], picture[k.c] });
+            const float own = std::fabs(bands.residual[k.pixel]);
+            gains[i] = coherence > 0.0f ? std::max(own, most - least) : own;
+        }
+        gain.apply(gains, count);
+        for (std::size_t i = 0; i < count; ++i)
+            compressed[between[first + i].pixel] += gains[i] * bands.residual[between[first + i].pixel];
     }
 }
 

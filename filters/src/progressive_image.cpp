@@ -244,7 +244,7 @@ const LogBands* ProgressiveImage::Data::log_bands(const ParallelFor& parallel, s
     log->luminance = log_luminance(source, colour, parallel);
     const std::vector<float> samples = to_mesh_pixels(hierarchy, log->luminance.guide.samples.data());
     std::vector<Bands> bands;
-    const Status status = analyse(hierarchy, { samples.data() }, bands);
+    const Status status = analyse(hierarchy, { samples.data() }, bands, parallel);
     error = status.error();
     if (!status)
         return nullptr;
@@ -270,7 +270,7 @@ bool ProgressiveImage::Data::are_channels_the_guide() const
     return !m_guide_clipped && (stats.guide == "rgb" || (stats.guide == "luma" && colour.count() < 2));
 }
 
-const ChannelBands* ProgressiveImage::Data::channel_bands(const ParallelFor&, std::string& error)
+const ChannelBands* ProgressiveImage::Data::channel_bands(const ParallelFor& parallel, std::string& error)
 {
     std::lock_guard<std::mutex> lock(m_mutex);
     if (m_channels != nullptr)
@@ -292,7 +292,7 @@ const ChannelBands* ProgressiveImage::Data::channel_bands(const ParallelFor&, st
             samples.push_back(mesh_samples(*this, colour.channel(c), channels->exponent));
         for (const std::vector<float>& channel : samples)
             pointers.push_back(channel.data());
-        const Status status = analyse(hierarchy, pointers, channels->bands);
+        const Status status = analyse(hierarchy, pointers, channels->bands, parallel);
         error = status.error();
         if (!status)
             return nullptr;

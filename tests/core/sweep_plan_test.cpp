@@ -55,6 +55,7 @@ TEST(SweepPlan, GivesTheSweepOfEveryPicture)
     std::vector<test::Picture> pictures = test::awkward_pictures();
     pictures.push_back(test::scene(333, 258));  // many tiles, none whole at the right and the bottom, and many stages
     pictures.push_back(test::scene(64, 900));
+    pictures.push_back(test::scene(12000, 3));  // too thin for tiles
     for (const test::Picture& p : pictures) {
         Hierarchy h;
         std::vector<Bands> bands;

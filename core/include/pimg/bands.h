@@ -33,7 +33,8 @@ struct Bands {
 /// has the channel's mean; that takes the topology of every level, so the splits are replayed, once for all
 /// channels. Synthesis with untouched details returns the samples to within one rounding.
 /// Fails only on a damaged hierarchy.
-Status analyse(const Hierarchy& hierarchy, const std::vector<const float*>& channels, std::vector<Bands>& bands);
+Status analyse(const Hierarchy& hierarchy, const std::vector<const float*>& channels, std::vector<Bands>& bands,
+               const ParallelFor& parallel = {});
 
 /// Copies a picture's samples (row-major, width x height) to mesh pixels: the same, but for pictures one
 /// pixel wide or high, whose only column or row is repeated.

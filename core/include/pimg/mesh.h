@@ -68,6 +68,10 @@ public:
 
     void reserve(std::size_t vertices);
 
+    /// Asks for the memory of a vertex, or of its neighbours, ahead of a split or collapse; of none if there is no such vertex.
+    void prefetch(Index v) const;
+    void prefetch_around(Index v) const;
+
 private:
     std::vector<Point> m_points;
     std::vector<Ring> m_rings;

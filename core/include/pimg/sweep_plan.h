@@ -21,9 +21,15 @@ struct PlannedSplit {
     float wat, wbt, wau, wbu;
 };
 
+/// The splits [first, last), which depend on no other task but the first `after`.
+struct SweepTask {
+    Level first, last;
+    std::size_t after;
+};
+
 class SweepPlan {
 public:
-    /// Takes as long as ten plain sweeps and keeps 44 bytes a split.
+    /// Takes as long as ten plain sweeps and keeps 44 bytes a split. Pictures a few pixels wide or high are left as they are.
     explicit SweepPlan(const Hierarchy& hierarchy, const ParallelFor& parallel = {});
 
     /// No plan but the hierarchy's own order, which must stay: sweeps are plain ones. For who sweeps only once or twice.
@@ -55,12 +61,6 @@ public:
     std::size_t memory() const;
 
 private:
-    /// The splits [first, last), which depend on no other task but the first `after`.
-    struct Task {
-        Level first, last;
-        std::size_t after;
-    };
-
     SweepPlan() = default;
 
     Level m_levels = 0;
@@ -69,7 +69,7 @@ private:
     std::vector<Index> m_base;  ///< places of the base vertices
     std::vector<Level> m_order;  ///< number of each split in the hierarchy
     std::unique_ptr<PlannedSplit[]> m_splits;
-    std::vector<Task> m_tasks;
+    std::vector<SweepTask> m_tasks;
 };
 
 inline PlannedSplit SweepPlan::split(Level i) const
