@@ -16,10 +16,9 @@ different=0
 for picture in "${pictures[@]}"; do
     for compiler in g++ clang++; do
         "build/$compiler/tools/pimgtool" "$picture" -o "$scratch/$compiler.pimg"
-        "build/$compiler/tools/pimgtool" "$picture" --hdr-compress --raw -o "$scratch/$compiler.pfm"
+        "build/$compiler/tools/pimgtool" "$picture" --hdr-compress --raw -o "$scratch/$compiler.exr"
     done
-    for extension in pimg pfm; do
-        cmp "$scratch/g++.$extension" "$scratch/clang++.$extension" || different=1
-    done
+    cmp "$scratch/g++.pimg" "$scratch/clang++.pimg" || different=1
+    idiff -fail 0 -warn 0 "$scratch/g++.exr" "$scratch/clang++.exr" || different=1
 done
 exit "$different"
