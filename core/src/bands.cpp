@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "batches.h"
+
 namespace pimg {
 
 float Bands::largest_detail() const
@@ -82,20 +84,6 @@ Status rebase(Hierarchy& h, std::vector<Bands>& bands, Level level, const Parall
     });
     return {};
 }
-
-namespace {
-
-template<class Visit>
-void in_batches(const ParallelFor& parallel, std::size_t n, Visit&& visit)
-{
-    constexpr std::size_t kBatch = 1 << 15;
-    run(parallel, (n + kBatch - 1) / kBatch, [&](std::size_t batch) {
-        for (std::size_t i = batch * kBatch; i < std::min(n, (batch + 1) * kBatch); ++i)
-            visit(i);
-    });
-}
-
-}  // namespace
 
 void scatter(const Hierarchy& h, const float* values, float* samples, const ParallelFor& parallel)
 {

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <utility>
 
+#include "batches.h"
 #include "pixel_stencils.h"
 
 namespace pimg {
@@ -32,8 +33,6 @@ Projection project(Point p, Point s, int degree, const Index* ring, const Point*
 }
 
 namespace {
-
-constexpr std::size_t kBatch = 1 << 14;
 
 /// A record and its order, as the bits of the float, which is never negative.
 struct Item {
@@ -72,13 +71,7 @@ std::vector<Index> sorted(const FlatArray<CollapseRecord>& records, const Parall
     FlatArray<Item> from, to;
     from.extend(n);
     to.extend(n);
-    const auto in_parts = [&](const auto& visit) {
-        run(parallel, (n + kBatch - 1) / kBatch, [&](std::size_t batch) {
-            for (std::size_t i = batch * kBatch; i < std::min(n, (batch + 1) * kBatch); ++i)
-                visit(i);
-        });
-    };
-    in_parts([&](std::size_t i) {
+    in_batches(parallel, n, [&](std::size_t i) {
         std::memcpy(&from[i].key, &records[i].order, sizeof from[i].key);
         from[i].index = Index(i);
     });
@@ -87,13 +80,8 @@ std::vector<Index> sorted(const FlatArray<CollapseRecord>& records, const Parall
         std::swap(from, to);
     }
     std::vector<Index> by_order(n);
-    in_parts([&](std::size_t i) { by_order[i] = from[i].index; });
+    in_batches(parallel, n, [&](std::size_t i) { by_order[i] = from[i].index; });
     return by_order;
-}
-
-std::size_t batches_of(const std::vector<Index>& by_order)
-{
-    return (by_order.size() + kBatch - 1) / kBatch;
 }
 
 /// Calls visit(i, record) for the splits i of a batch, coarse to fine. Their order is none in memory: records are fetched
@@ -147,7 +135,7 @@ std::vector<Index> number_names(std::size_t names, const CollapseSequence& seque
         number[sequence.base[v].name] = Index(v);
     const Index base = Index(sequence.base.size());
     const std::size_t parts = 3 + bands.size();
-    run(parallel, parts + batches_of(by_order), [&](std::size_t task) {
+    run(parallel, parts + batches_of(by_order.size()), [&](std::size_t task) {
         if (task < parts)
             allocate(task, by_order.size(), names, h, bands);
         else
@@ -198,15 +186,14 @@ void fill_splits(const CollapseSequence& sequence, const std::vector<Index>& by_
         for (std::size_t c = 0; c < more; ++c)
             bands[c + 1].details[i] = sequence.more[by_order[n - 1 - i] * more + c];
     };
-    run(parallel, batches_of(by_order), [&](std::size_t batch) { for_batch(batch, by_order, sequence.records, fetch, fill); });
+    run(parallel, batches_of(by_order.size()), [&](std::size_t batch) { for_batch(batch, by_order, sequence.records, fetch, fill); });
 }
 
 /// Pixels of the finest mesh: of vertices by their number, and those between.
 void fill_pixels(const Finest& finest, const std::vector<Index>& number, Hierarchy& h)
 {
-    run(finest.parallel, (number.size() + kBatch - 1) / kBatch, [&](std::size_t batch) {
-        for (std::size_t name = batch * kBatch; name < std::min(number.size(), (batch + 1) * kBatch); ++name)
-            h.pixels[number[name]] = finest.initial ? finest.initial->pixels[name] : Index(name);
+    in_batches(finest.parallel, number.size(), [&](std::size_t name) {
+        h.pixels[number[name]] = finest.initial ? finest.initial->pixels[name] : Index(name);
     });
     if (number.size() == h.mesh_pixels())
         return;

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <thread>
 
+#include "batches.h"
+
 namespace pimg {
 
 namespace {
@@ -161,17 +163,6 @@ std::vector<SweepTask> tasks_of(const std::vector<Scheduled>& all)
         tasks.back().last = i + 1;
     }
     return tasks;
-}
-
-/// Calls visit(i) for every i below n.
-template<class Visit>
-void in_batches(const ParallelFor& parallel, std::size_t n, Visit&& visit)
-{
-    constexpr std::size_t kBatch = 1 << 14;
-    run(parallel, (n + kBatch - 1) / kBatch, [&](std::size_t batch) {
-        for (std::size_t i = batch * kBatch; i < std::min(n, (batch + 1) * kBatch); ++i)
-            visit(i);
-    });
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <cstring>
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <OpenImageIO/color.h>
 
@@ -13,6 +12,7 @@
 #include <pimg/display.h>
 
 #include "core/pictures.h"
+#include "core/simd_targets.h"
 #include "detail_gain.h"
 #include "display_curve.h"
 #include "guide.h"
@@ -22,30 +22,12 @@ namespace {
 
 constexpr std::size_t kCount = 1003;
 
-template<class Body>
-void on_every_target(Body&& body)
-{
-    const auto all = hwy::SupportedTargets();
-    int tried = 0;
-    for (int bit = 0; bit < 63; ++bit) {
-        const std::int64_t target = std::int64_t(1) << bit;
-        if (!(all & target))
-            continue;
-        hwy::SetSupportedTargetsForTest(target);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-        body(tried++, hwy::TargetName(target));
-    }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    EXPECT_GE(tried, 1);
-}
-
 /// make(first, count) returns results for these; they must not depend on the target nor on where a range begins.
 template<class Make>
 void expect_same_bits(Make&& make)
 {
     std::vector<float> expected;
-    on_every_target([&](int tried, const char* target) {
+    test::on_every_target([&](int tried, const char* target) {
         const std::vector<float> all = make(0, kCount);
         if (tried == 0)
             expected = all;
@@ -69,16 +51,23 @@ std::vector<float> part_of(const std::vector<float>& v, std::size_t first, std::
     return std::vector<float>(v.begin() + std::ptrdiff_t(first), v.begin() + std::ptrdiff_t(first + count));
 }
 
-TEST(FilterVectors, PowersOfTwo)
+/// What in_place(values, count) makes of x, after checking that it makes the same everywhere.
+template<class InPlace>
+std::vector<float> checked(const std::vector<float>& x, InPlace&& in_place)
 {
-    const std::vector<float> x = numbers(-130.0f, 130.0f, 1);
     const auto make = [&](std::size_t first, std::size_t count) {
         std::vector<float> y = part_of(x, first, count);
-        exp2_in_place(y.data(), count);
+        in_place(y.data(), count);
         return y;
     };
     expect_same_bits(make);
-    const std::vector<float> y = make(0, kCount);
+    return make(0, kCount);
+}
+
+TEST(FilterVectors, PowersOfTwo)
+{
+    const std::vector<float> x = numbers(-130.0f, 130.0f, 1);
+    const std::vector<float> y = checked(x, exp2_in_place);
     for (std::size_t i = 0; i < kCount; ++i) {
         const double expected = std::exp2(double(std::min(std::max(x[i], -126.0f), 127.0f)));
         EXPECT_NEAR(double(y[i]) / expected, 1.0, 2.5e-7) << x[i];
@@ -88,13 +77,7 @@ TEST(FilterVectors, PowersOfTwo)
 TEST(FilterVectors, SrgbCurve)
 {
     const std::vector<float> x = numbers(-0.5f, 2.0f, 10);
-    const auto make = [&](std::size_t first, std::size_t count) {
-        std::vector<float> y = part_of(x, first, count);
-        srgb_in_place(y.data(), count);
-        return y;
-    };
-    expect_same_bits(make);
-    const std::vector<float> y = make(0, kCount);
+    const std::vector<float> y = checked(x, srgb_in_place);
     for (std::size_t i = 0; i < kCount; ++i)
         EXPECT_NEAR(y[i], OIIO::linear_to_sRGB(x[i]), 5e-7f);
 }
@@ -104,13 +87,7 @@ TEST(FilterVectors, GainsOfContrasts)
     const std::vector<float> contrasts = numbers(0.0f, 30.0f, 2);
     for (const float beta : { 0.0f, 0.5f, 1.0f, 2.0f, 7.3f, 12.0f, 100.0f }) {
         const DetailGain gain { 0.2f, beta, 20.0f };
-        const auto make = [&](std::size_t first, std::size_t count) {
-            std::vector<float> y = part_of(contrasts, first, count);
-            gain.apply(y.data(), count);
-            return y;
-        };
-        expect_same_bits(make);
-        const std::vector<float> y = make(0, kCount);
+        const std::vector<float> y = checked(contrasts, [&](float* v, std::size_t n) { gain.apply(v, n); });
         for (std::size_t i = 0; i < kCount; ++i) {
             const double rest = 1.0 - std::min(double(contrasts[i]) / 20.0, 1.0);
             EXPECT_NEAR(double(y[i]), 0.2 + 0.8 * std::pow(rest, double(beta)), 1e-6 + 1e-7 * double(beta)) << beta << " " << contrasts[i];
@@ -213,13 +190,7 @@ TEST(FilterVectors, LightnessRisesToOne)
 {
     const std::vector<float> stops = numbers(-20.0f, 5.0f, 9);
     const Shoulder shoulder(4.0f);
-    const auto make = [&](std::size_t first, std::size_t count) {
-        std::vector<float> y = part_of(stops, first, count);
-        lightness_in_place(shoulder, y.data(), count);
-        return y;
-    };
-    expect_same_bits(make);
-    const std::vector<float> y = make(0, kCount);
+    const std::vector<float> y = checked(stops, [&](float* v, std::size_t n) { lightness_in_place(shoulder, v, n); });
     for (std::size_t i = 0; i < kCount; ++i) {
         const float luminance = std::exp2(stops[i]);
         if (luminance <= Shoulder::kKnee) {
