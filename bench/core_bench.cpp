@@ -8,7 +8,7 @@
 
 #include <pimg/bands.h>
 #include <pimg/simplify.h>
-#include <pimg/sweep_plan.h>
+#include <pimg/detail/sweep_plan.h>
 
 #include "pictures.h"
 

@@ -26,5 +26,5 @@ endforeach()
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # What files of ours are, for file(1) and for desktops.
-install(FILES core/share/pimg-mime.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages RENAME pimg.xml)
-install(FILES core/share/pimg.magic DESTINATION ${CMAKE_INSTALL_DATADIR}/pimg)
+install(FILES codec/share/pimg-mime.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages RENAME pimg.xml)
+install(FILES codec/share/pimg.magic DESTINATION ${CMAKE_INSTALL_DATADIR}/pimg)

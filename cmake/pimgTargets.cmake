@@ -24,10 +24,11 @@ function(pimg_target_defaults target)
     endif()
 endfunction()
 
-# pimg_add_library(<name> HEADERS ... SOURCES ...): the static library pimg_<name>, used and exported as pimg::<name>,
-# whose public headers are in include/pimg beside the caller or, when generated, in its build folder.
+# pimg_add_library(<name> HEADERS ... DETAIL_HEADERS ... SOURCES ...): the static library pimg_<name>, used and exported as
+# pimg::<name>. Its public headers are in include/pimg beside the caller or, when generated, in its build folder. Detail
+# headers, in include/pimg/detail, are for our other libraries and are not installed.
 function(pimg_add_library name)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES")
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;DETAIL_HEADERS;SOURCES")
     set(target pimg_${name})
     add_library(${target} STATIC ${arg_SOURCES})
     add_library(pimg::${name} ALIAS ${target})
@@ -36,6 +37,8 @@ function(pimg_add_library name)
     target_sources(${target} PUBLIC FILE_SET HEADERS
         BASE_DIRS include ${CMAKE_CURRENT_BINARY_DIR}/include
         FILES ${arg_HEADERS})
+    target_sources(${target} PRIVATE ${arg_DETAIL_HEADERS})
+    target_include_directories(${target} PRIVATE src)
     install(TARGETS ${target} EXPORT pimg_${name}
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
@@ -47,8 +50,6 @@ endfunction()
 # time; every one gives the same bits. EMU128 is the portable baseline: the compiler bug it is held back for concerns
 # 16-bit integers, which are not used.
 function(pimg_vector_sources name)
-    # Highway includes a source by the name the file gives itself.
-    target_include_directories(pimg_${name} PRIVATE src)
     set_source_files_properties(${ARGN} PROPERTIES
         COMPILE_DEFINITIONS "HWY_BROKEN_EMU128=0;HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_AVX3_DL)")
 endfunction()

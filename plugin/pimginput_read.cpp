@@ -8,6 +8,7 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 
+#include <pimg/detail/parallel.h>
 #include <pimg/threads.h>
 
 namespace pimg {

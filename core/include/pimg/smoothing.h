@@ -13,7 +13,6 @@
 #include <vector>
 
 #include <pimg/bands.h>
-#include <pimg/diffusion.h>
 #include <pimg/hierarchy.h>
 
 namespace pimg {

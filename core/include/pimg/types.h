@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace pimg {
 
@@ -36,6 +37,9 @@ inline std::int64_t doubled_area(Point a, Point b, Point c)
     return std::int64_t(b.x - a.x) * (c.y - a.y) - std::int64_t(c.x - a.x) * (b.y - a.y);
 }
 
+/// Channels of one picture: rasters of width x height samples each, row-major.
+using Rasters = std::vector<std::vector<float>>;
+
 /// Outcome of an operation that can fail: empty = fine, otherwise one line that
 /// names what was wrong and what was expected. Core neither throws nor prints.
 class Status {
@@ -60,15 +64,6 @@ private:
 /// given; an empty function means a plain loop. Core owns no threads: hosts
 /// pass their pool.
 using ParallelFor = std::function<void(std::size_t n, const std::function<void(std::size_t)>& body)>;
-
-inline void run(const ParallelFor& parallel, std::size_t n, const std::function<void(std::size_t)>& body)
-{
-    if (parallel && n > 1)
-        parallel(n, body);
-    else
-        for (std::size_t i = 0; i < n; ++i)
-            body(i);
-}
 
 /// Called now and then with the share of the work done, 0..1; returning false
 /// asks for a clean stop. Always called from the thread that started the work.

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tiles: the mesh layer as it is shown, and the exact samples.
+#include "decoder_file.h"
+
+#include <algorithm>
+
+#include "raster/samples.h"
+#include "raster/raster_tile.h"
+
+namespace pimg {
+
+/// One channel of a tile as the mesh layer shows it.
+Status Decoder::File::show(const SamplePoints& points, std::uint32_t column, std::uint32_t row, std::size_t c,
+                           std::vector<std::int32_t>& samples) const
+{
+    std::shared_ptr<const LayerState> state;
+    const Status status = shared_layer(state);
+    if (status) {
+        samples.resize(points.xs.size() * points.ys.size());
+        fill(state->layer.mesh, state->grid.triangles(), state->grid.at(column, row), state->layer.values[c],
+             mesh_shift(desc.channels[c].type), points, samples.data());
+    }
+    return status;
+}
+
+/// Channels first ... of a tile, exactly.
+Status Decoder::File::read_group(ByteReader& in, const SamplePoints& points, std::uint32_t column, std::uint32_t row,
+                                 std::size_t first, TileGroup& group) const
+{
+    const auto bad = [&] {
+        return Status::failure("pimg: tile " + std::to_string(row * columns() + column) + " is damaged");
+    };
+    const std::size_t count = group.values.size();
+    group.mesh.resize(count);
+    group.sizes.resize(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        TilePlaneReader reader;
+        TilePlane plane;
+        plane.width = int(points.xs.size());
+        plane.height = int(points.ys.size());
+        if (!reader.open(in, plane.pixels()))
+            return bad();
+        if (reader.uses_gouraud()) {
+            const Status status = show(points, column, row, first + k, group.mesh[k]);
+            if (!status)
+                return status;
+            plane.gouraud = group.mesh[k].data();
+        }
+        group.values[k].resize(plane.pixels());
+        group.sizes[k].resize(plane.pixels());
+        plane.values = group.values[k].data();
+        plane.sizes = group.sizes[k].data();
+        plane.guide = k > 0 ? group.sizes[k - 1].data() : first > 0 ? group.before.data() : nullptr;
+        if (!reader.read(plane))
+            return bad();
+    }
+    group.before.swap(group.sizes[count - 1]);
+    return {};
+}
+
+/// Undoes the colour transform of channels first ... and hands out their samples.
+void Decoder::File::finish(std::vector<std::vector<std::int32_t>>& group, std::size_t first, std::uint32_t width,
+                           std::uint32_t height, bool exact, const std::vector<Plane>& planes) const
+{
+    if (first == 0)
+        inverse(Transform(head.transform), group);
+    for (std::size_t k = 0; k < group.size(); ++k)
+        if (planes[first + k].data)
+            scatter(desc.channels[first + k].type, group[k], width, height, !exact, planes[first + k], 0, 0);
+}
+
+Status Decoder::File::tile(std::uint32_t column, std::uint32_t row, const std::vector<Plane>& planes) const
+{
+    const std::uint32_t x = column * head.tile, y = row * head.tile;
+    const std::uint32_t width = std::min<std::uint32_t>(head.tile, desc.data.width - x);
+    const std::uint32_t height = std::min<std::uint32_t>(head.tile, desc.data.height - y);
+    const std::size_t number = std::size_t(row) * columns() + column;
+    const SamplePoints points = SamplePoints::rectangle(x, y, width, height);
+    Bytes bytes;
+    ByteReader in(nullptr, 0);
+    const bool exact = number < tile_offsets.size();
+    Status status;
+    if (exact) {
+        Chunk chunk;
+        if (!chunk_at(tile_offsets[number], chunk, status))
+            return Status::failure("pimg: the file shrank");
+        status = payload(chunk, bytes);
+        if (!status)
+            return status;
+        in = body_of(bytes);
+        in.u32();
+    }
+    TileGroup group;
+    for (std::size_t first = 0; first < desc.channels.size(); first += group.values.size()) {
+        group.values.resize(group_size(first));
+        if (exact)
+            status = read_group(in, points, column, row, first, group);
+        for (std::size_t k = 0; !exact && status && k < group.values.size(); ++k)
+            status = show(points, column, row, first + k, group.values[k]);
+        if (!status)
+            return status;
+        finish(group.values, first, width, height, exact, planes);
+    }
+    return exact && !in.finished() ? Status::failure("pimg: tile " + std::to_string(number) + " is damaged") : Status();
+}
+
+}  // namespace pimg

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writing a file: samples -> integers -> colour transform; hierarchy -> mesh layer; tiles; collapse sequence.
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+#include <pimg/codec.h>
+#include <pimg/detail/parallel.h>
+#include <pimg/simplify.h>
+
+#include "raster/samples.h"
+#include "sequence/collapse_sequence.h"
+#include "container.h"
+#include "mesh_layer/gouraud.h"
+#include "mesh_layer/mesh_layer.h"
+#include "raster/raster_tile.h"
+
+namespace pimg {
+
+namespace {
+
+class Encoder {
+public:
+    Encoder(const PictureDesc& desc, const std::vector<ConstPlane>& samples, const EncodeOptions& options)
+        : m_desc(desc), m_samples(samples), m_options(options)
+    {}
+    Status run(Bytes& file, EncodeStats& stats);
+
+private:
+    bool progress(float done) const { return !m_options.progress || m_options.progress(done); }
+    Transform choose_transform() const;
+    Status build_hierarchy();
+    std::uint32_t lattice_shift() const;
+    Status make_mesh_layer(MeshLayerChunks& chunks);
+    Bytes write_tile(std::uint32_t column, std::uint32_t row, const MeshLayerChunks& chunks, const TriangleGrid& grid) const;
+    void make_tiles(const MeshLayerChunks& chunks, std::vector<Bytes>& tiles) const;
+
+    const PictureDesc& m_desc;
+    const std::vector<ConstPlane>& m_samples;
+    const EncodeOptions& m_options;
+    Integers m_integers;
+    Transform m_transform = Transform::none;
+    Hierarchy m_own;
+    const Hierarchy* m_hierarchy = nullptr;
+};
+
+/// Weighted sum of the first three channels, or the first: what the built-in guide and the diagonals look at.
+std::vector<float> luma(const PictureDesc& desc, const Integers& integers)
+{
+    std::vector<float> z(integers.channels[0].begin(), integers.channels[0].end());
+    const auto& c = desc.channels;
+    if (c.size() >= 3 && c[0].type == c[1].type && c[0].type == c[2].type)
+        for (std::size_t i = 0; i < z.size(); ++i)
+            z[i] = 0.2126f * z[i] + 0.7152f * float(integers.channels[1][i]) + 0.0722f * float(integers.channels[2][i]);
+    // The bulk of the values gets the range of an 8-bit picture; what lies far outside is cut off.
+    std::vector<float> some;
+    for (std::size_t i = 0; i < z.size(); i += 1 + z.size() / 4096)
+        some.push_back(z[i]);
+    std::sort(some.begin(), some.end());
+    const bool bytes = c[0].type == SampleType::uint8;
+    const float low = bytes ? 0.0f : some[some.size() / 100];
+    const float range = bytes ? 255.0f : std::max(some[some.size() - 1 - some.size() / 100] - low, 1.0f);
+    for (float& v : z)
+        v = std::clamp((v - low) * (255.0f / range), -255.0f, 510.0f);
+    return z;
+}
+
+/// The transform that leaves the smallest residuals on a few strips of the picture.
+Transform Encoder::choose_transform() const
+{
+    Transform best = Transform::none;
+    if (!allows(m_desc, Transform::ycocg))
+        return best;
+    std::uint64_t least = ~0ull;
+    for (Transform t : { Transform::none, Transform::ycocg, Transform::green }) {
+        std::uint64_t bits = 0;
+        const std::uint32_t height = std::min<std::uint32_t>(m_integers.height, 24);
+        const std::uint32_t strips = std::min<std::uint32_t>(8, m_integers.height / height);
+        for (std::uint32_t s = 0; s < strips; ++s) {
+            const std::size_t first = std::size_t(std::uint64_t(m_integers.height - height) * s / std::max(1u, strips - 1))
+                                      * m_integers.width;
+            const std::size_t count = std::size_t(height) * m_integers.width;
+            std::vector<std::vector<std::int32_t>> strip;
+            for (std::size_t c = 0; c < 3; ++c)
+                strip.emplace_back(m_integers.channels[c].begin() + std::ptrdiff_t(first),
+                                   m_integers.channels[c].begin() + std::ptrdiff_t(first + count));
+            forward(t, strip);
+            std::vector<std::uint16_t> sizes(count), before(count);
+            for (std::size_t c = 0; c < 3; ++c) {
+                const TilePlane plane { int(m_integers.width), int(height), strip[c].data(), nullptr,
+                                        c > 0 ? before.data() : nullptr, sizes.data() };
+                bits += estimate_tile_plane(plane, {});
+                sizes.swap(before);
+            }
+        }
+        if (bits < least) {
+            least = bits;
+            best = t;
+        }
+    }
+    return best;
+}
+
+Status Encoder::build_hierarchy()
+{
+    m_hierarchy = m_options.hierarchy;
+    if (m_hierarchy) {
+        const bool fits = m_hierarchy->width == int(m_desc.data.width) && m_hierarchy->height == int(m_desc.data.height)
+                          && !m_hierarchy->empty();
+        return fits ? Status() : Status::failure("pimg: the hierarchy is not one of this picture");
+    }
+    const std::vector<float> guide = luma(m_desc, m_integers);
+    SimplifyOptions options;
+    options.parallel = m_options.parallel;
+    options.base_faces = Index(std::clamp<std::size_t>(m_desc.pixels() / 512, 2, 128));
+    if (m_options.progress)
+        options.progress = [&](float done) { return m_options.progress(0.5f * done); };
+    std::vector<Bands> bands;
+    const Status status = simplify({ int(m_desc.data.width), int(m_desc.data.height), { { guide.data(), 1.0f } } },
+                                   options, m_own, bands);
+    m_hierarchy = &m_own;
+    return status;
+}
+
+/// A hierarchy is stored as it is, but for a single 8-bit channel, where its positions would take more than the picture:
+/// these go to 1/16 pixel.
+std::uint32_t Encoder::lattice_shift() const
+{
+    if (m_options.lattice_shift >= 0)
+        return std::uint32_t(std::min(m_options.lattice_shift, 6));
+    return m_desc.channels.size() == 1 && m_desc.channels[0].type == SampleType::uint8 ? 2 : 0;
+}
+
+Status Encoder::make_mesh_layer(MeshLayerChunks& chunks)
+{
+    const double vertices = double(m_options.vertices) * double(m_hierarchy->mesh_pixels());
+    const Level count = m_hierarchy->level_of_vertices(vertices);
+    std::vector<Bands> all;
+    constexpr std::size_t kAtOnce = 4;
+    for (std::size_t first = 0; first < m_desc.channels.size(); first += kAtOnce) {
+        std::vector<std::vector<float>> values;
+        std::vector<const float*> pointers;
+        for (std::size_t c = first; c < std::min(first + kAtOnce, m_desc.channels.size()); ++c) {
+            const int shift = mesh_shift(m_desc.channels[c].type);
+            std::vector<float> z;
+            z.reserve(m_integers.channels[c].size());
+            for (std::int32_t v : m_integers.channels[c])
+                z.push_back(float(v >> shift));
+            values.push_back(to_mesh_pixels(*m_hierarchy, z.data()));
+        }
+        for (const auto& v : values)
+            pointers.push_back(v.data());
+        std::vector<Bands> bands;
+        const Status status = analyse(*m_hierarchy, pointers, bands);
+        if (!status)
+            return status;
+        for (Bands& b : bands) {
+            b.details.resize(count);
+            b.details.shrink_to_fit();
+            all.push_back(std::move(b));
+        }
+    }
+    return write_mesh_layer(*m_hierarchy, all, vertices, chunks);
+}
+
+/// The best predictor by estimate. One that needs the mesh layer must earn what showing it costs the reader.
+TilePredictor choose_predictor(const TilePlane& plane, int effort)
+{
+    TilePredictor best;
+    if (effort == 0)
+        return best;
+    std::uint64_t least = ~0ull;
+    for (int gouraud = 0; gouraud <= (plane.gouraud ? 1 : 0); ++gouraud)
+        for (Shape shape : { Shape::median, Shape::mean, Shape::left, Shape::none }) {
+            if (effort < 2 && (shape == Shape::none || (gouraud && shape == Shape::left)))
+                continue;
+            const TilePredictor p { shape, gouraud != 0 };
+            std::uint64_t bits = estimate_tile_plane(plane, p);
+            if (gouraud)
+                bits += bits / (effort < 2 ? 25 : 500);
+            if (bits < least) {
+                least = bits;
+                best = p;
+            }
+        }
+    return best;
+}
+
+Bytes Encoder::write_tile(std::uint32_t column, std::uint32_t row, const MeshLayerChunks& chunks,
+                          const TriangleGrid& grid) const
+{
+    const std::uint32_t x = column * m_options.tile, y = row * m_options.tile;
+    const std::uint32_t width = std::min(m_options.tile, m_integers.width - x);
+    const std::uint32_t height = std::min(m_options.tile, m_integers.height - y);
+    const std::size_t pixels = std::size_t(width) * height;
+    Bytes out;
+    put_u32(out, row * ((m_integers.width + m_options.tile - 1) / m_options.tile) + column);
+    std::vector<std::int32_t> values(pixels), mesh(pixels);
+    std::vector<std::uint16_t> sizes(pixels), before(pixels);
+    const SamplePoints points = SamplePoints::rectangle(x, y, width, height);
+    for (std::size_t c = 0; c < m_integers.channels.size(); ++c) {
+        for (std::uint32_t i = 0; i < height; ++i) {
+            const std::int32_t* from = m_integers.channels[c].data() + std::size_t(y + i) * m_integers.width + x;
+            std::copy(from, from + width, values.begin() + std::ptrdiff_t(std::size_t(i) * width));
+        }
+        TilePlane plane { int(width), int(height), values.data(), nullptr, c > 0 ? before.data() : nullptr,
+                          sizes.data() };
+        if (m_options.effort > 0) {
+            fill(chunks.layer.mesh, grid.triangles(), grid.at(column, row), chunks.layer.values[c],
+                 mesh_shift(m_desc.channels[c].type), points, mesh.data());
+            plane.gouraud = mesh.data();
+        }
+        write_tile_plane(plane, choose_predictor(plane, m_options.effort), out);
+        sizes.swap(before);
+    }
+    return out;
+}
+
+void Encoder::make_tiles(const MeshLayerChunks& chunks, std::vector<Bytes>& tiles) const
+{
+    const TriangleGrid grid(chunks.layer.mesh, m_options.tile);
+    const std::uint32_t columns = (m_integers.width + m_options.tile - 1) / m_options.tile;
+    const std::uint32_t rows = (m_integers.height + m_options.tile - 1) / m_options.tile;
+    tiles.resize(std::size_t(columns) * rows);
+    pimg::run(m_options.parallel, tiles.size(), [&](std::size_t i) {
+        tiles[i] = write_tile(std::uint32_t(i % columns), std::uint32_t(i / columns), chunks, grid);
+    });
+}
+
+Status Encoder::run(Bytes& file, EncodeStats& stats)
+{
+    const auto stopped = [] { return Status::failure("writing was stopped"); };
+    m_integers = gather(m_desc, m_samples, 0, 0, m_desc.data.width, m_desc.data.height);
+    Status status = build_hierarchy();
+    if (!status)
+        return status;
+    CollapseChunks collapses;
+    if (m_options.profile == Profile::full)
+        status = write_collapse_sequence(*m_hierarchy, m_desc, m_samples, lattice_shift(), collapses);
+    if (!status)
+        return status;
+    m_transform = choose_transform();
+    forward(m_transform, m_integers.channels);
+    if (!progress(0.55f))
+        return stopped();
+    MeshLayerChunks chunks;
+    status = make_mesh_layer(chunks);
+    if (!status)
+        return status;
+    if (!progress(0.7f))
+        return stopped();
+    std::vector<Bytes> tiles;
+    make_tiles(chunks, tiles);
+    if (!progress(0.98f))
+        return stopped();
+
+    FileHead head;
+    head.profile = std::uint8_t(m_options.profile);
+    head.transform = std::uint8_t(m_transform);
+    head.tile = std::uint16_t(m_options.tile);
+    head.channels = std::uint32_t(m_desc.channels.size());
+    head.vertices = chunks.layer.mesh.size();
+    head.hash = m_options.hash ? hash_samples(m_desc, m_samples) : 0;
+    put_bytes(file, kSignature, sizeof kSignature);
+    put_chunk(file, "HEAD", kCritical, write_head(head, m_desc));
+    put_chunk(file, "CHAN", kCritical, write_channels(m_desc));
+    if (!m_desc.attributes.empty())
+        put_chunk(file, "META", kSafeToCopy, write_attributes(m_desc));
+    put_chunk(file, "MESH", kCritical, chunks.base);
+    stats.mesh_bytes = chunks.base.size();
+    for (const Bytes& batch : chunks.batches) {
+        put_chunk(file, "BATC", kCritical, batch);
+        stats.mesh_bytes += batch.size();
+    }
+    for (Bytes& tile : tiles) {
+        put_chunk(file, "RAST", kCritical, tile);
+        stats.raster_bytes += tile.size();
+        Bytes().swap(tile);
+    }
+    for (const Bytes& chunk : collapses.chunks) {
+        put_chunk(file, "COLL", kAncillary, chunk);
+        stats.hierarchy_bytes += chunk.size();
+    }
+    put_chunk(file, "DONE", kCritical, {});
+    stats.mesh_vertices = head.vertices;
+    return progress(1.0f) ? Status() : stopped();
+}
+
+}  // namespace
+
+Status encode(const PictureDesc& desc, const std::vector<ConstPlane>& samples, const EncodeOptions& options,
+              std::vector<std::uint8_t>& file, EncodeStats* stats)
+{
+    DecodeLimits none;
+    none.sample_bytes = ~0ull;
+    const Status status = check_desc(desc, none);
+    if (!status)
+        return status;
+    if (samples.size() != desc.channels.size()
+        || std::any_of(samples.begin(), samples.end(), [](const ConstPlane& p) { return !p.data; }))
+        return Status::failure("pimg: one plane of samples per channel is needed");
+    if (options.tile < 16 || options.tile > 1024 || !(options.vertices >= 0.0f && options.vertices <= 0.3f))
+        return Status::failure("pimg: tile must be 16 to 1024, vertices 0 to 0.3");
+    for (const Attribute& a : desc.attributes)
+        if (a.name.size() > 65535 || a.type.size() > 255 || a.value.size() > 0x7fffffffu)
+            return Status::failure("pimg: an attribute is too large");
+    try {
+        EncodeStats mine;
+        Bytes bytes;
+        const Status done = Encoder(desc, samples, options).run(bytes, mine);
+        if (done) {
+            file.swap(bytes);
+            if (stats)
+                *stats = mine;
+        }
+        return done;
+    } catch (const std::bad_alloc&) {
+        return Status::failure("pimg: out of memory");
+    }
+}
+
+}  // namespace pimg

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The mesh on which the collapse sequence is repeated: rings by pixel number.
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+#include <vector>
+
+#include <pimg/ring.h>
+#include <pimg/types.h>
+
+#include "entropy/symbol_coder.h"
+
+namespace pimg {
+
+/// A ring in a cache line of its own.
+struct alignas(64) AlignedRing : Ring {};
+
+/// The ring that merging t and u leaves: from vr along t's side to vl (place `vl`), then along u's.
+struct Star {
+    int degree = 0, vl = 0;
+    Index ring[kMaxDegree] = {};
+    Point points[kMaxDegree] = {};
+    std::int64_t areas[kMaxDegree] = {};  ///< twice that of each face of the merged vertex; is_place_ok() finds them
+};
+
+class CollapseMesh {
+public:
+    /// Vertices on the pixels of a width x height grid (2 x 2 at least), not yet connected.
+    CollapseMesh(int width, int height);
+    /// One flag per quad, row-major: cut from its upper left to its lower right corner.
+    void connect(const std::vector<std::uint8_t>& falling);
+
+    Point extent() const { return { (m_width - 1) * kSubpixels, (m_height - 1) * kSubpixels }; }
+    Index size() const { return Index(vertices.size()); }
+    bool alive(Index v) const { return vertices[v].degree > 0; }
+    /// Keeps only these vertices (increasing, all that are alive) and numbers them anew, in the same order: what is still at work
+    /// lies together.
+    void keep(const std::vector<Index>& survivors);
+
+    /// False when t and u are no neighbours or merging them would break the mesh.
+    bool load_star(Index t, Index u, Star& star) const;
+    /// Whether every triangle stays positive and the sides of the picture keep their vertices.
+    bool is_place_ok(Star& star, Index t, Index u, Point s) const;
+    void collapse(const Star& star, Index t, Index u, Point s);
+    /// Neighbours of t with larger numbers, nearest first, then by number.
+    struct Candidates {
+        int count = 0;
+        Index nearest = kGhost;
+        std::uint32_t klass = 0;  ///< under which the choice is coded: how many, and how clear the nearest is
+    };
+    Candidates candidates(Index t) const;
+    /// Number `choice` of them, or kGhost.
+    Index candidate(Index t, std::uint32_t choice) const;
+
+    /// Brings what a collapse at v will touch nearer: first its own ring, a few collapses later its neighbours'.
+    void prefetch(Index v) const
+    {
+        __builtin_prefetch(&rings[v]);
+        __builtin_prefetch(&vertices[v]);
+    }
+    void prefetch_ring(Index v) const
+    {
+        for (int j = 0; j < vertices[v].degree; ++j)
+            if (const Index q = rings[v].v[std::size_t(j)]; q != kGhost)
+                prefetch(q);
+    }
+
+    struct Vertex {
+        Point at;
+        Index pixel;       ///< it began as
+        std::int32_t degree;  ///< of its ring; 0: merged into another
+    };
+    std::vector<AlignedRing> rings;
+    std::vector<Vertex> vertices;
+
+private:
+    int m_width, m_height;
+};
+
+/// Classes under which the position of s is coded, and whether its coordinates are coded at all (on a side they are known).
+struct CollapseClasses {
+    std::uint32_t x, y;
+    bool x_free, y_free;
+};
+CollapseClasses collapse_classes(Point t, Point u, Point extent);
+
+/// Where s is expected: the middle of t and u, or the side of the picture either lies on.
+inline std::int32_t expected(std::int32_t t, std::int32_t u, std::int32_t extent)
+{
+    if (t == 0 || t == extent)
+        return t;
+    if (u == 0 || u == extent)
+        return u;
+    return (t + u) >> 1;
+}
+
+/// Class of a quad's diagonal: how much its two candidates differ; the prediction is the smaller jump.
+struct DiagonalGuess {
+    std::uint32_t klass;
+    bool falling;
+};
+inline DiagonalGuess guess_diagonal(const std::int32_t* p, int width)
+{
+    const std::int64_t down = std::abs(std::int64_t(p[0]) - p[width + 1]), up = std::abs(std::int64_t(p[1]) - p[width]);
+    const std::int64_t gap = std::abs(down - up);
+    return { class_of(std::uint32_t(gap)), down <= up };
+}
+
+}  // namespace pimg

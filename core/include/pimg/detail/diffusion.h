@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Diffusion along the edges of the finest mesh, the pixels' grid, that stops where another picture has an edge
+// (Perona and Malik 1990), in the large unequal steps of a fast explicit scheme (Grewenig, Weickert, Bruhn 2010).
+#pragma once
+
+#include <vector>
+
+#include <pimg/types.h>
+
+namespace pimg {
+
+/// How values flow. Along an edge of the grid with difference d in the guide, being the root of the mean square over its
+/// channels, the conductance is
+///     1 / (1 + (d / contrast)^2)^2
+struct DiffusionOptions {
+    int width = 0, height = 0;  ///< of all rasters
+    float contrast = 0.1f;      ///< difference across which a quarter of the flow is left; > 0, in units of the guide
+    int steps = 7;              ///< 1 or more; n steps reach as far as a Gaussian of variance (n^2 + n) / 6, in pixels
+    ParallelFor parallel;       ///< the result does not depend on it
+};
+
+/// Diffuses every channel of `picture`, which may be the guide itself; the conductances are those of the guide as given.
+/// Mean-preserving, and never leaves the range of the picture by more than rounding after the last step.
+void diffuse(const Rasters& guide, const DiffusionOptions& options, const Rasters& picture, Rasters& result);
+
+}  // namespace pimg

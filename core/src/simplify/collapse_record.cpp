@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simplify/collapse_record.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <utility>
+
+#include <pimg/detail/parallel.h>
+#include "mesh/pixel_stencils.h"
+
+namespace pimg {
+
+namespace {
+
+/// A record and its order, as the bits of the float, which is never negative.
+struct Item {
+    std::uint32_t key;
+    Index index;
+};
+
+/// One pass of a radix sort by many threads: parts of `from` are counted, then moved behind each other.
+void move_by_bits(const FlatArray<Item>& from, int shift, int bits, const ParallelFor& parallel, FlatArray<Item>& to)
+{
+    constexpr std::size_t kParts = 16;
+    const std::size_t n = from.size(), buckets = std::size_t(1) << bits;
+    std::vector<std::vector<std::size_t>> place(kParts);
+    const auto for_part = [&](std::size_t part, const auto& visit) {
+        for (std::size_t i = n * part / kParts; i < n * (part + 1) / kParts; ++i)
+            visit(from[i], place[part][(from[i].key >> shift) & (buckets - 1)]);
+    };
+    run(parallel, kParts, [&](std::size_t part) {
+        place[part].resize(buckets);
+        for_part(part, [](const Item&, std::size_t& count) { ++count; });
+    });
+    std::size_t next = 0;
+    for (std::size_t bucket = 0; bucket < buckets; ++bucket)
+        for (std::vector<std::size_t>& counts : place)
+            next += std::exchange(counts[bucket], next);
+    run(parallel, kParts, [&](std::size_t part) {
+        for_part(part, [&](const Item& item, std::size_t& at) { to[at++] = item; });
+    });
+}
+
+/// Indices of `records` by increasing order, ties in the order they were done.
+std::vector<Index> sorted(const FlatArray<CollapseRecord>& records, const ParallelFor& parallel)
+{
+    constexpr int kBits = 11, kPasses = 3;
+    const std::size_t n = records.size();
+    FlatArray<Item> from, to;
+    from.extend(n);
+    to.extend(n);
+    in_batches(parallel, n, [&](std::size_t i) {
+        std::memcpy(&from[i].key, &records[i].order, sizeof from[i].key);
+        from[i].index = Index(i);
+    });
+    for (int pass = 0; pass < kPasses; ++pass) {
+        move_by_bits(from, pass * kBits, kBits, parallel, to);
+        std::swap(from, to);
+    }
+    std::vector<Index> by_order(n);
+    in_batches(parallel, n, [&](std::size_t i) { by_order[i] = from[i].index; });
+    return by_order;
+}
+
+/// Calls visit(i, record) for the splits i of a batch, coarse to fine. Their order is none in memory: records are fetched
+/// ahead, and then what fetch(record) asks for.
+template<class Fetch, class Visit>
+void for_batch(std::size_t batch, const std::vector<Index>& by_order, const FlatArray<CollapseRecord>& records,
+               Fetch&& fetch, Visit&& visit)
+{
+    constexpr std::size_t kAhead = 32;
+    const std::size_t n = by_order.size(), last = std::min(n, (batch + 1) * kBatch);
+    for (std::size_t i = batch * kBatch; i < last; ++i) {
+        if (i + kAhead < last) {
+            const CollapseRecord& later = records[by_order[n - 1 - i - kAhead]];
+            __builtin_prefetch(&later);
+            __builtin_prefetch(&later.order);
+        }
+        if (i + kAhead / 2 < last)
+            fetch(records[by_order[n - 1 - i - kAhead / 2]]);
+        visit(i, records[by_order[n - 1 - i]]);
+    }
+}
+
+/// Asks for the entry of a name; of the ghost, too: a wrong address does no harm.
+void prefetch_entry(const std::vector<Index>& number, Index name)
+{
+    const std::uintptr_t first = reinterpret_cast<std::uintptr_t>(number.data());
+    __builtin_prefetch(reinterpret_cast<const void*>(first + name * sizeof(Index)));
+}
+
+/// One of several parts of the memory of the hierarchy, which is cleared for it: that takes about as long as filling it.
+void allocate(std::size_t part, std::size_t splits, std::size_t vertices, Hierarchy& h, std::vector<Bands>& bands)
+{
+    if (part == 0)
+        h.stencils.resize(splits);
+    else if (part == 1)
+        h.splits.resize(splits);
+    else if (part == 2) {
+        h.costs.resize(splits);
+        h.pixels.resize(vertices);
+    } else
+        bands[part - 3].details.resize(splits);
+}
+
+/// Number of each name: base vertices first, then one per split, coarse to fine. Memory for the hierarchy is got by
+/// the way.
+std::vector<Index> number_names(std::size_t names, const CollapseSequence& sequence, const std::vector<Index>& by_order,
+                                const ParallelFor& parallel, Hierarchy& h, std::vector<Bands>& bands)
+{
+    std::vector<Index> number(names);
+    for (std::size_t v = 0; v < sequence.base.size(); ++v)
+        number[sequence.base[v].name] = Index(v);
+    const Index base = Index(sequence.base.size());
+    const std::size_t parts = 3 + bands.size();
+    run(parallel, parts + batches_of(by_order.size()), [&](std::size_t task) {
+        if (task < parts)
+            allocate(task, by_order.size(), names, h, bands);
+        else
+            for_batch(
+                task - parts, by_order, sequence.records,
+                [&](const CollapseRecord& r) { prefetch_entry(number, r.u); },
+                [&](std::size_t i, const CollapseRecord& r) { number[r.u] = base + Index(i); });
+    });
+    return number;
+}
+
+void fill_base(const std::vector<BaseVertex>& base, const std::vector<Index>& number, Hierarchy& h,
+               std::vector<Bands>& bands)
+{
+    for (const BaseVertex& v : base) {
+        const Index n = number[v.name];
+        h.base_points.push_back(v.p);
+        for (std::size_t c = 0; c < bands.size(); ++c)
+            bands[c].base.push_back(v.z[c]);
+        for (int j = 0; j < v.degree; ++j) {
+            const Index a = v.ring.v[std::size_t(j)], b = v.ring.v[std::size_t((j + 1) % v.degree)];
+            if (a != kGhost && b != kGhost && n < number[a] && n < number[b])
+                h.base_triangles.push_back({ n, number[a], number[b] });
+        }
+    }
+}
+
+/// Splits, stencils and costs in coarse-to-fine order; details hold the true intensities of t and u for now.
+void fill_splits(const CollapseSequence& sequence, const std::vector<Index>& by_order, const std::vector<Index>& number,
+                 const ParallelFor& parallel, Hierarchy& h, std::vector<Bands>& bands)
+{
+    const std::size_t n = sequence.records.size(), more = bands.size() - 1;
+    const auto renumber = [&](Index name) {
+        return name == kGhost ? kGhost : number[name];
+    };
+    const auto fetch = [&](const CollapseRecord& r) {
+        const Stencil& k = r.stencil;
+        for (Index name : { r.split.s, r.split.vl, r.split.vr, k.at, k.bt, k.au, k.bu })
+            prefetch_entry(number, name);
+    };
+    const auto fill = [&](std::size_t i, const CollapseRecord& r) {
+        h.splits[i] = { number[r.split.s], renumber(r.split.vl), renumber(r.split.vr), r.split.t, r.split.u };
+        h.stencils[i] = { number[r.stencil.s],  number[r.stencil.at], number[r.stencil.bt],
+                          number[r.stencil.au], number[r.stencil.bu], r.stencil.wat,
+                          r.stencil.wbt,        r.stencil.wau,        r.stencil.wbu };
+        h.costs[i] = r.order;
+        bands[0].details[i] = { r.zt, r.zu };
+        for (std::size_t c = 0; c < more; ++c)
+            bands[c + 1].details[i] = sequence.more[by_order[n - 1 - i] * more + c];
+    };
+    run(parallel, batches_of(by_order.size()), [&](std::size_t batch) { for_batch(batch, by_order, sequence.records, fetch, fill); });
+}
+
+/// Pixels of the finest mesh: of vertices by their number, and those between.
+void fill_pixels(const Finest& finest, const std::vector<Index>& number, Hierarchy& h)
+{
+    in_batches(finest.parallel, number.size(), [&](std::size_t name) {
+        h.pixels[number[name]] = finest.initial ? finest.initial->pixels[name] : Index(name);
+    });
+    if (number.size() == h.mesh_pixels())
+        return;
+    std::vector<Triangle> triangles(finest.initial->triangles());
+    for (std::size_t e = 0; e < finest.initial->corners.size(); ++e)
+        triangles[e / 3][e % 3] = finest.initial->pixels[finest.initial->corners[e]];
+    h.between = pixel_stencils(h.mesh_width(), h.mesh_height(), h.pixels, triangles, finest.parallel);
+}
+
+}  // namespace
+
+Status assemble(int width, int height, const Finest& finest, CollapseSequence&& sequence, Index base_faces,
+                Hierarchy& hierarchy, std::vector<Bands>& bands)
+{
+    Hierarchy h;
+    std::vector<Bands> b(std::size_t(sequence.channels));
+    h.width = width;
+    h.height = height;
+    CollapseSequence done = std::move(sequence);
+    const std::size_t names = finest.initial ? finest.initial->pixels.size() : h.mesh_pixels();
+    std::vector<Index> by_order = sorted(done.records, finest.parallel);
+    std::vector<Index> number = number_names(names, done, by_order, finest.parallel, h, b);
+    fill_base(done.base, number, h, b);
+    fill_splits(done, by_order, number, finest.parallel, h, b);
+    fill_pixels(finest, number, h);
+    run(finest.parallel, 1 + b.size(), [&](std::size_t task) {
+        if (task > 0) {
+            values_to_details(h, finest.guide.channels[task - 1].samples, b[task - 1]);
+            return;
+        }
+        // Giving memory back takes as long as a channel.
+        done = {};
+        std::vector<Index>().swap(by_order);
+        std::vector<Index>().swap(number);
+    });
+    const Level level = h.level_of_faces(base_faces);
+    Status status = level > 0 ? rebase(h, b, level, finest.parallel) : Status();
+    if (status) {
+        hierarchy = std::move(h);
+        bands = std::move(b);
+    }
+    return status;
+}
+
+}  // namespace pimg

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the engine writes down about each collapse, and how the sequence becomes a hierarchy.
+#pragma once
+
+#include <vector>
+
+#include <pimg/bands.h>
+#include <pimg/hierarchy.h>
+#include <pimg/sampling.h>
+#include <pimg/simplify.h>
+
+#include <pimg/detail/flat_array.h>
+
+namespace pimg {
+
+/// One edge collapse in the order it was done. Vertices go by name: the mesh pixel, or the vertex of the initial mesh,
+/// they started as; s keeps the name of t.
+struct CollapseRecord {
+    Split split;  ///< s = name of t
+    Index u;      ///< name of u
+    Stencil stencil;
+    float zt, zu;  ///< intensities before the collapse
+    float order;   ///< cost, no lower than that of any collapse this one needs
+};
+
+/// A vertex of the mesh that is left at the end.
+struct BaseVertex {
+    Index name;
+    Point p;
+    std::vector<float> z;  ///< of every guide channel
+    Ring ring;             ///< by name
+    int degree;
+};
+
+/// All that is known when nothing is left to collapse.
+struct CollapseSequence {
+    int channels = 1;
+    FlatArray<CollapseRecord> records;
+    FlatArray<Detail> more;  ///< zt and zu of the channels after the first, channels - 1 a record
+    std::vector<BaseVertex> base;
+};
+
+/// What the finest mesh stands for.
+struct Finest {
+    const Guide& guide;          ///< samples per mesh pixel
+    const InitialMesh* initial;  ///< tells where names are; none: names are pixels
+    const ParallelFor& parallel;
+};
+
+/// Sorts the collapses by order (any two that do not depend on each other commute), numbers the vertices by
+/// the split that makes them, turns intensities into details, and keeps the coarsest level
+/// of at least `base_faces` triangles as base mesh.
+Status assemble(int width, int height, const Finest& finest, CollapseSequence&& sequence, Index base_faces,
+                Hierarchy& hierarchy, std::vector<Bands>& bands);
+
+}  // namespace pimg

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pimg/smoothing.h>
+#include <pimg/detail/parallel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <pimg/detail/diffusion.h>
+#include <pimg/detail/piece_means.h>
+
+namespace pimg {
+
+namespace {
+
+constexpr float kFeaturePixels = 8.0f;    ///< pixels a deviation of `strength` must cover to count as a feature
+constexpr float kStartShare = 0.85f;      ///< of what the sweep removed, in the picture that diffuses
+constexpr float kContrastShare = 0.7f;    ///< contrast that stops diffusion, as a share of the strength
+constexpr int kSteps = 6;                 ///< of diffusion guided by the features
+constexpr int kOwnSteps = 3;              ///< and then by what came out of that
+constexpr float kLeastStrength = 1e-17f;  ///< its square is still a number
+
+/// Share of a deviation that stays: 0 well below the tolerance, 1 well above, a half at it. `square` is the
+/// squared ratio of both.
+float kept_share(float square)
+{
+    return 1.0f - 1.0f / (1.0f + square * square);
+}
+
+/// Vertex values with the channels of a vertex side by side.
+template<int C>
+class FeatureSweep {
+public:
+    /// `tolerance`: deviation of a single pixel of which half stays.
+    FeatureSweep(const Hierarchy& hierarchy, const SmoothingSource& source, float tolerance)
+        : m_hierarchy(hierarchy),
+          m_source(source),
+          m_scale(1.0f / (tolerance * tolerance) / float(C)),
+          m_values(std::size_t(hierarchy.vertices()) * C)
+    {
+    }
+
+    void run();
+    void scatter(Rasters& rasters) const;
+
+private:
+    struct Sample {
+        float c[C];
+    };
+    const float* at(Index v) const { return &m_values[std::size_t(v) * C]; }
+    Sample predict(const Stencil& k, Index a, Index b, float wa, float wb) const;
+    void place(Index v, Sample predicted, const Sample& mean, float evidence);
+
+    const Hierarchy& m_hierarchy;
+    const SmoothingSource& m_source;
+    float m_scale;
+    std::vector<float> m_values;
+};
+
+template<int C>
+typename FeatureSweep<C>::Sample FeatureSweep<C>::predict(const Stencil& k, Index a, Index b, float wa, float wb) const
+{
+    const float *s = at(k.s), *pa = at(a), *pb = at(b);
+    Sample p;
+    for (int c = 0; c < C; ++c)
+        p.c[c] = s[c] + (wa * (pa[c] - s[c]) + wb * (pb[c] - s[c]));
+    return p;
+}
+
+template<int C>
+void FeatureSweep<C>::place(Index v, Sample predicted, const Sample& mean, float evidence)
+{
+    float square = 0.0f;
+    for (int c = 0; c < C; ++c)
+        square += (mean.c[c] - predicted.c[c]) * (mean.c[c] - predicted.c[c]);
+    const float share = kept_share(square * m_scale * evidence);
+    for (int c = 0; c < C; ++c)
+        m_values[std::size_t(v) * C + std::size_t(c)] = predicted.c[c] + share * (mean.c[c] - predicted.c[c]);
+}
+
+template<int C>
+void FeatureSweep<C>::run()
+{
+    const Index base = m_hierarchy.base_vertices();
+    const Detail* means[C];
+    for (int c = 0; c < C; ++c) {
+        const Bands& bands = m_source.means[std::size_t(c)];
+        means[c] = bands.details.data();
+        for (Index v = 0; v < base; ++v)
+            m_values[std::size_t(v) * C + std::size_t(c)] = bands.base[v];
+    }
+    for (Level i = 0; i < m_hierarchy.levels(); ++i) {
+        const Stencil& k = m_hierarchy.stencils[i];
+        const Detail evidence = m_source.evidence[i];
+        Sample mean_t, mean_u;
+        for (int c = 0; c < C; ++c) {
+            mean_t.c[c] = means[c][i].t;
+            mean_u.c[c] = means[c][i].u;
+        }
+        const Sample t = predict(k, k.at, k.bt, k.wat, k.wbt), u = predict(k, k.au, k.bu, k.wau, k.wbu);
+        place(k.s, t, mean_t, evidence.t);
+        place(base + i, u, mean_u, evidence.u);
+    }
+}
+
+template<int C>
+void FeatureSweep<C>::scatter(Rasters& rasters) const
+{
+    rasters.resize(C);
+    std::vector<float> values(m_hierarchy.vertices());
+    for (int c = 0; c < C; ++c) {
+        for (Index v = 0; v < m_hierarchy.vertices(); ++v)
+            values[v] = at(v)[c];
+        rasters[std::size_t(c)].resize(m_hierarchy.mesh_pixels());
+        pimg::scatter(m_hierarchy, values.data(), rasters[std::size_t(c)].data());
+    }
+}
+
+template<int C>
+void run_sweep(const Hierarchy& hierarchy, const SmoothingSource& source, float strength, Rasters& features)
+{
+    FeatureSweep<C> sweep(hierarchy, source, kFeaturePixels * std::max(strength, kLeastStrength));
+    sweep.run();
+    sweep.scatter(features);
+}
+
+}  // namespace
+
+std::size_t SmoothingSource::memory() const
+{
+    std::size_t total = evidence.capacity() * sizeof(Detail);
+    for (const std::vector<float>& raster : samples)
+        total += raster.capacity() * sizeof(float);
+    for (const Bands& bands : means)
+        total += bands.base.capacity() * sizeof(float) + bands.details.capacity() * sizeof(Detail);
+    return total;
+}
+
+SmoothingSource analyse_for_smoothing(const Hierarchy& hierarchy, Rasters samples)
+{
+    SmoothingSource source;
+    source.evidence = piece_sizes(hierarchy);
+    for (Detail& d : source.evidence)
+        d = { d.t * d.t, d.u * d.u };
+    for (const std::vector<float>& channel : samples)
+        source.means.push_back(piece_means(hierarchy, channel.data()));
+    source.samples = std::move(samples);
+    return source;
+}
+
+void feature_sweep(const Hierarchy& hierarchy, const SmoothingSource& source, float strength, Rasters& features)
+{
+    switch (source.samples.size()) {
+    case 1:
+        return run_sweep<1>(hierarchy, source, strength, features);
+    case 2:
+        return run_sweep<2>(hierarchy, source, strength, features);
+    case 3:
+        return run_sweep<3>(hierarchy, source, strength, features);
+    default:
+        return run_sweep<4>(hierarchy, source, strength, features);
+    }
+}
+
+void smooth(const Hierarchy& hierarchy, const SmoothingSource& source, const SmoothingOptions& options, Rasters& result)
+{
+    if (!(options.strength > 0.0f)) {
+        result = source.samples;
+        return;
+    }
+    Rasters features, start = source.samples;
+    feature_sweep(hierarchy, source, options.strength, features);
+    for (std::size_t c = 0; c < start.size(); ++c)
+        for (std::size_t i = 0; i < start[c].size(); ++i)
+            start[c][i] = features[c][i] + kStartShare * (start[c][i] - features[c][i]);
+    DiffusionOptions diffusion;
+    diffusion.width = hierarchy.mesh_width();
+    diffusion.height = hierarchy.mesh_height();
+    diffusion.contrast = kContrastShare * std::max(options.strength, kLeastStrength);
+    diffusion.steps = kSteps;
+    diffusion.parallel = options.parallel;
+    Rasters guided;
+    diffuse(features, diffusion, start, guided);
+    diffusion.steps = kOwnSteps;
+    diffuse(guided, diffusion, guided, result);
+}
+
+namespace {
+
+/// Share of the detail that is amplified at each pixel of row y, see enhance(). `scale`: of the squared differences.
+std::vector<float> share_off_edges(const Rasters& smoothed, int width, int height, int y, float scale)
+{
+    const std::size_t n = std::size_t(width), at = std::size_t(y) * n;
+    const std::size_t above = y > 0 ? at - n : at, below = y + 1 < height ? at + n : at;
+    std::vector<float> share(n, 0.0f);
+    for (const std::vector<float>& z : smoothed)
+        for (std::size_t x = 0; x < n; ++x) {
+            const float dx = z[at + std::min(x + 1, n - 1)] - z[at + std::max<std::size_t>(x, 1) - 1];
+            const float dy = z[below + x] - z[above + x];
+            share[x] += dx * dx + dy * dy;
+        }
+    for (float& s : share)
+        s = 1.0f / ((1.0f + scale * s) * (1.0f + scale * s));
+    return share;
+}
+
+}  // namespace
+
+void enhance(const Hierarchy& hierarchy, const SmoothingSource& source, const SmoothingOptions& options, float gain,
+             Rasters& result)
+{
+    Rasters smoothed;
+    smooth(hierarchy, source, options, smoothed);
+    result = source.samples;
+    // Differences over two pixels, twice the gradient: their square holds the factor 4.
+    const float strength = std::max(options.strength, kLeastStrength);
+    const float scale = 1.0f / (strength * strength * float(result.size()));
+    const int width = hierarchy.mesh_width(), height = hierarchy.mesh_height();
+    run(options.parallel, std::size_t(height), [&](std::size_t y) {
+        const std::vector<float> share = share_off_edges(smoothed, width, height, int(y), scale);
+        for (std::size_t c = 0; c < result.size(); ++c) {
+            float* to = &result[c][y * share.size()];
+            const float* from = &smoothed[c][y * share.size()];
+            for (std::size_t x = 0; x < share.size(); ++x)
+                to[x] += (gain - 1.0f) * share[x] * (to[x] - from[x]);
+        }
+    });
+}
+
+float noise_level(const Rasters& samples, int width, int height)
+{
+    double sum = 0.0;
+    for (const std::vector<float>& z : samples) {
+        std::vector<float> differences;
+        for (std::size_t y = 0; y + 1 < std::size_t(height); ++y)
+            for (std::size_t i = y * std::size_t(width); i + 1 < (y + 1) * std::size_t(width); ++i) {
+                const std::size_t below = i + std::size_t(width);
+                differences.push_back(std::fabs((z[i] - z[i + 1]) - (z[below] - z[below + 1])));
+            }
+        if (differences.empty())
+            return 0.0f;
+        const auto middle = differences.begin() + std::ptrdiff_t(differences.size() / 2);
+        std::nth_element(differences.begin(), middle, differences.end());
+        // The median of |normal| is 0.6745 sigma, and the difference of four samples has twice their sigma.
+        const double sigma = double(*middle) / (2.0 * 0.6745);
+        sum += sigma * sigma;
+    }
+    return samples.empty() ? 0.0f : float(std::sqrt(sum / double(samples.size())));
+}
+
+}  // namespace pimg

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Analysis of further channels: replays the splits to the finest level, then undoes them one by one.
+#include <pimg/bands.h>
+#include <pimg/detail/parallel.h>
+
+#include <algorithm>
+
+namespace pimg {
+
+namespace {
+
+/// The volume equation of one collapse, solved for the intensity of s: a weighted mean of t, u and their ring,
+///     z_s = z_t + sum of weight (z - z_t).
+/// The weights are areas, so they hold for every channel.
+struct VolumeStencil {
+    int size = 0;
+    Index vertex[2 * kMaxDegree];
+    float weight[2 * kMaxDegree];
+};
+
+double area(Point a, Point b, Point c)
+{
+    return double(doubled_area(a, b, c));
+}
+
+/// For the edge from t (number s in `fine`) to u, its last vertex; `coarse` is where s will be.
+VolumeStencil volume_stencil(const Mesh& fine, Index s, Index u, Point coarse)
+{
+    // The star of s: ring of t from vr to vl, then that of u back to vr.
+    const RingView of_t = fine.ring(s), of_u = fine.ring(u);
+    VolumeStencil stencil;
+    Point points[2 * kMaxDegree];
+    int n = 0;
+    const auto add = [&](Index q) {
+        points[n] = q == kGhost ? Point {} : fine.point(q);
+        stencil.vertex[n++] = q;
+    };
+    const int at = int(std::find(of_t.begin(), of_t.end(), u) - of_t.begin());
+    for (int k = at + 1; k < at + of_t.degree; ++k)
+        add(of_t[k < of_t.degree ? k : k - of_t.degree]);
+    const int vl = n - 1;
+    const int back = int(std::find(of_u.begin(), of_u.end(), s) - of_u.begin());
+    for (int k = back + 2; k < back + of_u.degree - 1; ++k)
+        add(of_u[k < of_u.degree ? k : k - of_u.degree]);
+
+    // Twice the area each corner of the star loses, old triangles minus new, and twice the area around u.
+    const Point t = fine.point(s), pu = fine.point(u);
+    double lost[2 * kMaxDegree] = {}, around_u = 0.0, star = 0.0;
+    for (int i = 0; i < n; ++i) {
+        const int next = i + 1 < n ? i + 1 : 0;
+        if (stencil.vertex[i] == kGhost || stencil.vertex[next] == kGhost)
+            continue;
+        const double before = area(i < vl ? t : pu, points[i], points[next]);
+        const double after = area(coarse, points[i], points[next]);
+        star += after;
+        around_u += i < vl ? 0.0 : before;
+        lost[i] += before - after;
+        lost[next] += before - after;
+    }
+    if (stencil.vertex[0] != kGhost) {
+        const double shared = area(t, pu, points[0]);
+        lost[0] += shared;
+        around_u += shared;
+    }
+    if (stencil.vertex[vl] != kGhost) {
+        const double shared = area(t, points[vl], pu);
+        lost[vl] += shared;
+        around_u += shared;
+    }
+    for (int i = 0; i < n; ++i)
+        if (stencil.vertex[i] != kGhost) {
+            stencil.vertex[stencil.size] = stencil.vertex[i];
+            stencil.weight[stencil.size++] = float(lost[i] / star);
+        }
+    stencil.vertex[stencil.size] = u;
+    stencil.weight[stencil.size++] = float(around_u / star);
+    return stencil;
+}
+
+}  // namespace
+
+Status analyse(const Hierarchy& h, const std::vector<const float*>& channels, std::vector<Bands>& bands,
+               const ParallelFor& parallel)
+{
+    Mesh mesh;
+    std::vector<Point> coarse(h.levels());
+    Status status = refine(h, h.levels(), mesh, &coarse);
+    if (!status)
+        return status;
+    const Index base = h.base_vertices();
+    std::vector<std::vector<float>> values(channels.size(), std::vector<float>(h.vertices()));
+    bands.assign(channels.size(), {});
+    run(parallel, channels.size(), [&](std::size_t c) {
+        bands[c].details.resize(h.levels());
+        for (Index v = 0; v < h.vertices(); ++v)
+            values[c][v] = channels[c][h.pixels[v]];
+    });
+    constexpr Level kAhead = 16;  // splits are in no order in memory
+    const auto fetch_values = [&](Index of) {
+        for (const Index q : mesh.ring(of))
+            for (const std::vector<float>& z : values)
+                __builtin_prefetch(z.data() + (q == kGhost ? 0 : q));
+    };
+    for (Level i = h.levels(); i-- > 0;) {
+        const Index s = h.splits[i].s, u = base + i;
+        if (i >= kAhead) {
+            mesh.prefetch(h.splits[i - kAhead].s);
+            for (const Index later : { h.splits[i - kAhead / 2].s, u - kAhead / 2 }) {
+                mesh.prefetch_around(later);
+                fetch_values(later);
+            }
+        }
+        const VolumeStencil stencil = volume_stencil(mesh, s, u, coarse[i]);
+        for (std::size_t c = 0; c < channels.size(); ++c) {
+            float* z = values[c].data();
+            float change = 0.0f;
+            for (int k = 0; k < stencil.size; ++k)
+                change += stencil.weight[k] * (z[stencil.vertex[k]] - z[s]);
+            bands[c].details[i] = { z[s], z[u] };
+            z[s] += change;
+        }
+        if (!mesh.collapse(s, coarse[i]))
+            return Status::failure("hierarchy: split " + std::to_string(i) + " cannot be undone");
+    }
+    run(parallel, channels.size(), [&](std::size_t c) {
+        bands[c].base.assign(values[c].begin(), values[c].begin() + base);
+        values_to_details(h, channels[c], bands[c]);
+    });
+    return {};
+}
+
+}  // namespace pimg

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pimg/bands.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <pimg/detail/parallel.h>
+
+namespace pimg {
+
+float Bands::largest_detail() const
+{
+    float largest = 0.0f;
+    for (Detail d : details)
+        largest = std::max({ largest, std::fabs(d.t), std::fabs(d.u) });
+    return largest;
+}
+
+void values_to_details(const Hierarchy& h, const float* samples, Bands& bands)
+{
+    std::vector<float> values(h.vertices());
+    std::vector<Detail>& details = bands.details;
+    sweep(h, bands, values.data(), h.levels(), [&](Level i, Detail) {
+        const Stencil& k = h.stencils[i];
+        const float s = values[k.s];
+        const float t = s + (k.wat * (values[k.at] - s) + k.wbt * (values[k.bt] - s));
+        const float u = s + (k.wau * (values[k.au] - s) + k.wbu * (values[k.bu] - s));
+        details[i] = { details[i].t - t, details[i].u - u };
+        return details[i];
+    });
+    bands.residual.clear();
+    if (h.between.empty())
+        return;
+    bands.residual.resize(h.mesh_pixels());
+    scatter(h, values.data(), bands.residual.data());
+    for (std::size_t p = 0; p < bands.residual.size(); ++p)
+        bands.residual[p] = samples[p] - bands.residual[p];
+}
+
+std::vector<float> to_mesh_pixels(const Hierarchy& h, const float* samples)
+{
+    std::vector<float> mesh;
+    mesh.reserve(h.mesh_pixels());
+    for (int y = 0; y < h.mesh_height(); ++y)
+        for (int x = 0; x < h.mesh_width(); ++x)
+            mesh.push_back(samples[std::size_t(std::min(y, h.height - 1)) * std::size_t(h.width)
+                                   + std::size_t(std::min(x, h.width - 1))]);
+    return mesh;
+}
+
+std::vector<float> values_at(const Hierarchy& h, const Bands& bands, Level level)
+{
+    level = std::min(level, h.levels());
+    std::vector<float> values(std::size_t(h.base_vertices()) + level);
+    sweep(h, bands, values.data(), level, [](Level, Detail d) { return d; });
+    return values;
+}
+
+Status rebase(Hierarchy& h, std::vector<Bands>& bands, Level level, const ParallelFor& parallel)
+{
+    Mesh mesh;
+    const Status status = refine(h, level, mesh);
+    if (!status)
+        return status;
+    for (Bands& b : bands)
+        b.base = values_at(h, b, level);
+    h.base_triangles = mesh.triangles();
+    h.base_points.resize(mesh.size());
+    for (Index v = 0; v < mesh.size(); ++v)
+        h.base_points[v] = mesh.point(v);
+    const auto forget = [&](auto& of_splits) {
+        of_splits.erase(of_splits.begin(), of_splits.begin() + level);
+    };
+    run(parallel, 3, [&](std::size_t task) {
+        if (task == 0)
+            forget(h.stencils);
+        else if (task == 1)
+            forget(h.splits);
+        else {
+            forget(h.costs);
+            for (Bands& b : bands)
+                forget(b.details);
+        }
+    });
+    return {};
+}
+
+void scatter(const Hierarchy& h, const float* values, float* samples, const ParallelFor& parallel)
+{
+    in_batches(parallel, h.vertices(), [&](std::size_t v) { samples[h.pixels[v]] = values[v]; });
+    interpolate_between(h, samples, parallel);
+}
+
+void interpolate_between(const Hierarchy& h, float* samples, const ParallelFor& parallel)
+{
+    in_batches(parallel, h.between.size(), [&](std::size_t i) {
+        const PixelStencil& k = h.between[i];
+        const float a = samples[k.a];
+        samples[k.pixel] = a + (k.wb * (samples[k.b] - a) + k.wc * (samples[k.c] - a));
+    });
+}
+
+void synthesise(const Hierarchy& h, const Bands& bands, float* samples, const ParallelFor& parallel)
+{
+    std::vector<float> values(h.vertices());
+    sweep(h, bands, values.data(), h.levels(), [](Level, Detail d) { return d; });
+    scatter(h, values.data(), samples, parallel);
+    add_residual(bands, samples, [](Index, float r) { return r; });
+}
+
+}  // namespace pimg

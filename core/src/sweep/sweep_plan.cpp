@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pimg/detail/sweep_plan.h>
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+#include <thread>
+
+#include <pimg/detail/parallel.h>
+
+namespace pimg {
+
+namespace {
+
+constexpr int kTileBits = 6;
+constexpr Index kTile = 1 << kTileBits;  ///< side of a tile, in pixels
+constexpr Level kTogether = 16384;  ///< splits of the first stage: with fewer vertices, faces are larger than tiles
+constexpr Level kTaskSplits = 1024;  ///< at least, of several tiles if need be
+
+/// Where the value of every mesh pixel is: tile by tile, row by row.
+class Places {
+public:
+    explicit Places(const Hierarchy& h)
+        : m_width(Index(h.mesh_width())),
+          m_across((m_width + kTile - 1) / kTile),
+          m_down((Index(h.mesh_height()) + kTile - 1) / kTile)
+    {
+    }
+
+    Index tiles() const { return m_across * m_down; }
+    std::size_t count() const { return std::size_t(tiles()) << (2 * kTileBits); }
+    Index of(Index pixel) const { return of(pixel % m_width, pixel / m_width); }
+    Index of(Index x, Index y) const
+    {
+        const Index tile = (y >> kTileBits) * m_across + (x >> kTileBits);
+        return (((tile << kTileBits) + (y & (kTile - 1))) << kTileBits) + (x & (kTile - 1));
+    }
+    static Index tile_of(Index place) { return place >> (2 * kTileBits); }
+
+private:
+    Index m_width, m_across, m_down;
+};
+
+/// Stage and tile in which something was done.
+struct Turn {
+    static constexpr Index kTileOfTurn = 20, kAnyTile = (1u << kTileOfTurn) - 1, kFirstTile = kAnyTile - 1;
+    static constexpr Index kLastStage = (1u << (32 - kTileOfTurn)) - 1;
+
+    Index packed = kFirstTile;  ///< stage 0
+
+    Turn() = default;
+    Turn(Index stage, Index tile) : packed((stage << kTileOfTurn) | tile) {}
+    Index stage() const { return packed >> kTileOfTurn; }
+    Index tile() const { return packed & kAnyTile; }
+    /// The first stage in which `other`, a tile, may build on it.
+    Index stage_for(Index other) const { return stage() + (tile() != other); }
+    /// The later of two; of two in one stage, that stage and any tile. Without branches, which would be as good as random.
+    void join(Turn other)
+    {
+        const Index any = other.packed | kAnyTile;
+        const bool is_before = packed < (other.packed & ~kAnyTile) || packed == other.packed;
+        packed = std::max(packed, is_before ? other.packed : any);
+    }
+};
+
+/// Asks for the entries of a split's vertices.
+template<class T>
+void prefetch(const std::vector<T>& of_vertices, const Stencil& k)
+{
+    for (const Index v : { k.s, k.at, k.bt, k.au, k.bu })
+        __builtin_prefetch(&of_vertices[v]);
+}
+
+/// When a value was last written, and last read.
+struct Use {
+    Turn write, read;
+};
+
+/// Gives every split its turn, in the hierarchy's order.
+class Scheduler {
+public:
+    explicit Scheduler(std::size_t vertices) : m_uses(vertices) {}
+
+    const std::vector<Use>& uses() const { return m_uses; }
+
+    Turn schedule(const Stencil& k, Index u, Index tile)
+    {
+        Index stage = std::max(m_uses[k.s].write.stage_for(tile), m_uses[k.s].read.stage_for(tile));
+        for (const Index v : { k.at, k.bt, k.au, k.bu })
+            stage = std::max(stage, m_uses[v].write.stage_for(tile));
+        if (stage >= Turn::kLastStage) {  // all the rest one after the other: only a hierarchy made for that needs as many
+            stage = Turn::kLastStage;
+            tile = Turn::kFirstTile;
+        }
+        const Turn now(stage, tile);
+        for (const Index v : { k.at, k.bt, k.au, k.bu })
+            m_uses[v].read.join(now);
+        m_uses[k.s] = m_uses[u] = { now, now };
+        return now;
+    }
+
+private:
+    std::vector<Use> m_uses;
+};
+
+/// A split and its turn.
+struct Scheduled {
+    Turn turn;
+    Level split;
+};
+
+std::vector<Scheduled> schedule(const Hierarchy& h, const std::vector<Index>& places)
+{
+    constexpr Level kAhead = 16;
+    const Level n = h.levels();
+    std::vector<Scheduled> all(n);
+    Scheduler scheduler(h.vertices());
+    for (Level i = 0; i < n; ++i) {
+        __builtin_prefetch(reinterpret_cast<const char*>(&h.stencils[i]) + 4096);
+        if (i + kAhead < n)
+            prefetch(scheduler.uses(), h.stencils[i + kAhead]);
+        const Index u = h.base_vertices() + i;
+        all[i] = { i < kTogether ? Turn() : scheduler.schedule(h.stencils[i], u, Places::tile_of(places[u])), i };
+    }
+    return all;
+}
+
+/// By key(turn); those of one key stay as they were.
+template<class Key>
+void sort_by(std::size_t keys, Key&& key, std::vector<Scheduled>& all)
+{
+    std::vector<Level> start(keys + 1);
+    std::vector<Scheduled> from(all.size());
+    from.swap(all);
+    for (const Scheduled& s : from)
+        ++start[key(s.turn) + 1];
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    for (const Scheduled& s : from)
+        all[start[key(s.turn)]++] = s;
+}
+
+/// All splits by stage, then tile, then as they were.
+std::vector<Scheduled> in_turn(const Hierarchy& h, const std::vector<Index>& places, Index tiles)
+{
+    std::vector<Scheduled> all = schedule(h, places);
+    sort_by(tiles + 1, [tiles](Turn turn) { return std::min(turn.tile(), tiles); }, all);
+    sort_by(Turn::kLastStage + 1, [](Turn turn) { return turn.stage(); }, all);
+    return all;
+}
+
+/// Whole tiles of one stage each.
+std::vector<SweepTask> tasks_of(const std::vector<Scheduled>& all)
+{
+    std::vector<SweepTask> tasks;
+    std::size_t before = 0;  // tasks of earlier stages
+    for (Level i = 0; i < Level(all.size()); ++i) {
+        const bool fresh_stage = i == 0 || all[i].turn.stage() != all[i - 1].turn.stage();
+        const bool fresh_tile = fresh_stage || all[i].turn.tile() != all[i - 1].turn.tile();
+        if (fresh_stage)
+            before = tasks.size();
+        if (fresh_stage || (fresh_tile && i - tasks.back().first >= kTaskSplits))
+            tasks.push_back({ i, i, before });
+        tasks.back().last = i + 1;
+    }
+    return tasks;
+}
+
+}  // namespace
+
+SweepPlan::SweepPlan(const Hierarchy& h, const ParallelFor& parallel)
+{
+    const Places grid(h);
+    if (grid.count() > 4 * h.mesh_pixels() + kTile * kTile) {  // tiles would be all but empty
+        *this = as_it_is(h);
+        return;
+    }
+    std::vector<Index> places(h.vertices());
+    in_batches(parallel, places.size(), [&](std::size_t v) { places[v] = grid.of(h.pixels[v]); });
+    const std::vector<Scheduled> all = in_turn(h, places, grid.tiles());
+    m_levels = h.levels();
+    m_places = grid.count();
+    m_base.assign(places.begin(), places.begin() + h.base_vertices());
+    m_tasks = tasks_of(all);
+    m_order.resize(m_levels);
+    m_splits.reset(new PlannedSplit[m_levels]);  // not cleared before it is filled: threads share the page faults
+    in_batches(parallel, m_levels, [&](std::size_t j) {
+        constexpr std::size_t kAhead = 16;
+        if (j + 2 * kAhead < m_levels)
+            __builtin_prefetch(&h.stencils[all[j + 2 * kAhead].split]);
+        if (j + kAhead < m_levels)
+            prefetch(places, h.stencils[all[j + kAhead].split]);
+        const Level i = all[j].split;
+        const Stencil& k = h.stencils[i];
+        m_order[j] = i;
+        m_splits[j] = { places[k.s],  places[k.at], places[k.bt], places[k.au], places[k.bu],
+                        places[h.base_vertices() + i], k.wat, k.wbt, k.wau, k.wbu };
+    });
+}
+
+SweepPlan SweepPlan::as_it_is(const Hierarchy& hierarchy)
+{
+    SweepPlan plan;
+    plan.m_as_it_is = &hierarchy;
+    plan.m_levels = hierarchy.levels();
+    plan.m_places = hierarchy.vertices();
+    plan.m_base.resize(hierarchy.base_vertices());
+    std::iota(plan.m_base.begin(), plan.m_base.end(), Index(0));
+    plan.m_tasks.push_back({ 0, plan.m_levels, 0 });
+    return plan;
+}
+
+std::vector<Detail> SweepPlan::in_order(const std::vector<Detail>& details, const ParallelFor& parallel) const
+{
+    if (m_as_it_is != nullptr)
+        return details;
+    std::vector<Detail> ordered(details.size());
+    in_batches(parallel, details.size(), [&](std::size_t j) {
+        constexpr std::size_t kAhead = 24;
+        if (j + kAhead < details.size())
+            __builtin_prefetch(&details[m_order[j + kAhead]]);
+        ordered[j] = details[m_order[j]];
+    });
+    return ordered;
+}
+
+void SweepPlan::set_base(const std::vector<float>& base, float factor, float* values) const
+{
+    for (std::size_t v = 0; v < base.size(); ++v)
+        values[m_base[v]] = factor * base[v];
+}
+
+void SweepPlan::for_splits(const ParallelFor& parallel, const std::function<void(Level, Level)>& body) const
+{
+    // Tasks are taken in order; who has one whose stage has not begun waits for tasks that others are at. Waking
+    // threads anew for each stage would take longer than a stage.
+    std::atomic<std::size_t> next { 0 }, done { 0 };
+    const std::size_t workers = std::min<std::size_t>(m_tasks.size(), 64);
+    run(parallel, workers, [&](std::size_t) {
+        for (std::size_t task; (task = next.fetch_add(1, std::memory_order_relaxed)) < m_tasks.size();) {
+            for (int waits = 0; done.load(std::memory_order_acquire) < m_tasks[task].after; ++waits)
+                if (waits > 1000)
+                    std::this_thread::yield();
+            body(m_tasks[task].first, m_tasks[task].last);
+            done.fetch_add(1, std::memory_order_acq_rel);
+        }
+    });
+}
+
+void SweepPlan::scatter(const Hierarchy& h, const float* values, float* samples, const ParallelFor& parallel) const
+{
+    if (m_as_it_is != nullptr) {
+        pimg::scatter(h, values, samples, parallel);
+        return;
+    }
+    constexpr std::size_t kRows = 16;
+    const Places places(h);
+    const Index width = Index(h.mesh_width()), height = Index(h.mesh_height());
+    run(parallel, (height + kRows - 1) / kRows, [&](std::size_t task) {
+        for (Index y = Index(task * kRows); y < std::min(height, Index((task + 1) * kRows)); ++y)
+            for (Index x = 0; x < width; x += kTile)
+                std::copy_n(values + places.of(x, y), std::min(kTile, width - x), samples + std::size_t(y) * width + x);
+    });
+    interpolate_between(h, samples, parallel);
+}
+
+std::size_t SweepPlan::memory() const
+{
+    return m_base.capacity() * sizeof(Index) + m_order.capacity() * sizeof(PlannedSplit)
+           + m_order.capacity() * sizeof(Level) + m_tasks.capacity() * sizeof(SweepTask);
+}
+
+}  // namespace pimg

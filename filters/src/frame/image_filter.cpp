@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "frame/image_filter.h"
+
+#include <algorithm>
+
+#include <OpenImageIO/imagebufalgo_util.h>
+
+namespace pimg {
+
+namespace {
+
+bool is_empty(const OIIO::ROI& roi)
+{
+    return roi.xbegin >= roi.xend || roi.ybegin >= roi.yend || roi.zbegin >= roi.zend || roi.chbegin >= roi.chend;
+}
+
+bool is_built(OIIO::ImageBuf& dst, const ProgressiveImage& src)
+{
+    if (!src.initialized())
+        dst.errorfmt("{}", src.error().empty() ? "the progressive image has not been built" : src.error());
+    return src.initialized();
+}
+
+/// prepare() with the spec of a destination that does not exist yet.
+bool prepare_as(OIIO::ImageBuf& dst, ProgressiveImage::Data& data, OIIO::ROI& roi, OIIO::ImageSpec spec)
+{
+    // A region with nothing of the source in it is no error, but IBAprep would turn it inside out.
+    const OIIO::ROI whole = data.source.roi();
+    if (roi.defined() && is_empty(OIIO::roi_intersection(roi, whole))) {
+        roi = OIIO::ROI(whole.xbegin, whole.xbegin, whole.ybegin, whole.ybegin);
+        return true;
+    }
+    spec.channelformats.clear();
+    spec.tile_width = spec.tile_height = spec.tile_depth = 0;
+    if (!OIIO::ImageBufAlgo::IBAprep(roi, &dst, &data.source, nullptr, nullptr, &spec,
+                                     OIIO::ImageBufAlgo::IBAprep_NO_SUPPORT_VOLUME))
+        return false;
+    roi = OIIO::roi_intersection(roi, whole);
+    roi.chend = std::min({ roi.chend, dst.nchannels(), data.source.nchannels() });
+    return true;
+}
+
+}  // namespace
+
+bool prepare(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, ResultType type)
+{
+    if (!is_built(dst, src))
+        return false;
+    OIIO::ImageSpec spec = src.data()->spec;
+    if (type == ResultType::full_float || (type == ResultType::floating && !spec.format.is_floating_point()))
+        spec.format = OIIO::TypeDesc::FLOAT;
+    return prepare_as(dst, *src.data(), roi, spec);
+}
+
+bool prepare_single(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, const char* name,
+                    OIIO::TypeDesc type)
+{
+    if (!is_built(dst, src))
+        return false;
+    ProgressiveImage::Data& data = *src.data();
+    OIIO::ImageSpec spec = data.spec;
+    spec.nchannels = 1;
+    spec.channelnames = { name };
+    spec.alpha_channel = spec.z_channel = -1;
+    if (type != OIIO::TypeDesc::UNKNOWN)
+        spec.format = type;
+    if (!roi.defined())
+        roi = dst.initialized() ? dst.roi() : data.source.roi();
+    roi.chbegin = 0;
+    roi.chend = 1;
+    return prepare_as(dst, data, roi, spec);
+}
+
+void write_rows(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, OIIO::ROI roi, const ParallelFor& parallel,
+                const RowFilter& filter)
+{
+    if (is_empty(roi))
+        return;
+    const int channels = data.source.nchannels();
+    const OIIO::TypeDesc type = dst.spec().format;
+    const std::size_t pixel_bytes = std::size_t(channels) * sizeof(float);
+    const bool in_place = type == OIIO::TypeDesc::FLOAT && roi.chbegin == 0 && roi.chend == channels
+                          && dst.pixel_stride() == OIIO::stride_t(pixel_bytes);
+    for_rows(parallel, roi.ybegin, roi.yend, [&](int y) {
+        const float* source = static_cast<const float*>(data.source.pixeladdr(roi.xbegin, y, roi.zbegin));
+        if (in_place) {
+            float* row = static_cast<float*>(dst.pixeladdr(roi.xbegin, y, roi.zbegin));
+            std::copy_n(source, std::size_t(roi.width()) * std::size_t(channels), row);
+            filter(y, row);
+            return;
+        }
+        std::vector<float> row(source, source + std::size_t(roi.width()) * std::size_t(channels));
+        filter(y, row.data());
+        OIIO::convert_image(roi.nchannels(), roi.width(), 1, 1, row.data() + roi.chbegin, OIIO::TypeDesc::FLOAT,
+                            OIIO::stride_t(pixel_bytes), OIIO::AutoStride, OIIO::AutoStride,
+                            dst.pixeladdr(roi.xbegin, y, roi.zbegin, roi.chbegin), type, dst.pixel_stride(),
+                            OIIO::AutoStride, OIIO::AutoStride);
+    });
+}
+
+void write_channels(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, OIIO::ROI roi, const ParallelFor& parallel,
+                    const std::vector<std::vector<float>>& results, Specials specials)
+{
+    const OIIO::ImageSpec& spec = data.source.spec();
+    write_rows(dst, data, roi, parallel, [&](int y, float* row) {
+        const int first = roi.xbegin - spec.x;
+        for (int i = 0; i < data.colour.count(); ++i) {
+            float* out = row + data.colour.channel(i);
+            const float* in = &results[std::size_t(i)][std::size_t(y - spec.y) * std::size_t(spec.width)];
+            for (int x = 0; x < roi.width(); ++x, out += spec.nchannels)
+                *out = in[first + x];
+        }
+        if (specials == Specials::replaced)
+            return;
+        const Index begin = Index(y - spec.y) * Index(spec.width) + Index(first);
+        for_specials(data, begin, std::size_t(roi.width()),
+                     [&](const SpecialSample& s) { row[int(s.pixel - begin) * spec.nchannels + s.channel] = s.value; });
+    });
+}
+
+bool build_source(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, int nthreads, ProgressiveImage& progressive)
+{
+    if (progressive.build(src, {}, nthreads))
+        return true;
+    dst.errorfmt("{}", progressive.error());
+    return false;
+}
+
+}  // namespace pimg

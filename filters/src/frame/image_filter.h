@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The frame every filter has in common: what the destination becomes, and how rows of results get into it.
+#pragma once
+
+#include <algorithm>
+#include <exception>
+#include <functional>
+#include <new>
+#include <string>
+#include <vector>
+
+#include <OpenImageIO/imagebuf.h>
+
+#include <pimg/detail/parallel.h>
+#include <pimg/threads.h>
+
+#include "source/progressive_image_data.h"
+#include "source/to_picture.h"
+
+namespace pimg {
+
+/// Pixel type of a destination that does not exist yet.
+enum class ResultType {
+    as_source,  ///< results are in the source's range
+    floating,   ///< results may leave it: float unless the source is floating point
+    full_float  ///< float
+};
+
+/// Checks the source and the region and brings `dst` into being, as OpenImageIO's own functions do. Returns false with
+/// an error in `dst`. Afterwards `roi` lies within both pictures; it may be empty, and then there is nothing to do.
+bool prepare(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, ResultType type);
+
+/// The same for results of one channel called `name`: a new `dst` has no other, and only the first of an old one
+/// changes. UNKNOWN: the pixel type of the source.
+bool prepare_single(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, const char* name,
+                    OIIO::TypeDesc type);
+
+/// Makes results of the colour channels of row `y` for the pixels [roi.xbegin, roi.xend) of the
+/// picture. `row` holds all channels of those pixels, as in the source.
+using RowFilter = std::function<void(int y, float* row)>;
+
+/// Runs `filter` on every row of `roi` and writes the channels of `roi` to `dst`, whatever its pixel type.
+void write_rows(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, OIIO::ROI roi, const ParallelFor& parallel,
+                const RowFilter& filter);
+
+/// What becomes of samples that were not finite.
+enum class Specials { restored, replaced };
+
+/// write_rows() with the colour channels taken from `results`, one raster of the picture's size each.
+void write_channels(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, OIIO::ROI roi, const ParallelFor& parallel,
+                    const std::vector<std::vector<float>>& results, Specials specials = Specials::restored);
+
+/// Calls body(sample) for the samples of `count` pixels from number `first` on that were not finite.
+template<class Body>
+void for_specials(const ProgressiveImage::Data& data, Index first, std::size_t count, Body&& body)
+{
+    const auto before = [](const SpecialSample& s, Index pixel) {
+        return s.pixel < pixel;
+    };
+    auto s = std::lower_bound(data.specials.begin(), data.specials.end(), first, before);
+    for (; s != data.specials.end() && s->pixel < first + Index(count); ++s)
+        body(*s);
+}
+
+/// The second part of a filter's usual shape: options are checked, exceptions end here.
+template<class Options, class Body>
+bool run_filter(OIIO::ImageBuf& dst, const Options& options, Body&& body)
+{
+    try {
+        std::string error;
+        if (check_options(options, error))
+            return body();
+        dst.errorfmt("{}", error);
+    } catch (const std::bad_alloc&) {
+        dst.errorfmt("not enough memory");
+    } catch (const std::exception& exception) {
+        dst.errorfmt("{}", exception.what());
+    }
+    return false;
+}
+
+/// Builds the progressive image for the overloads that take a plain picture.
+bool build_source(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, int nthreads, ProgressiveImage& progressive);
+
+/// The third part: returns what `filter(result)` made, with an error if it failed without one.
+template<class Filter>
+OIIO::ImageBuf returned(const char* name, Filter&& filter)
+{
+    OIIO::ImageBuf result;
+    if (!filter(result) && !result.has_error())
+        result.errorfmt("{} error", name);
+    return result;
+}
+
+}  // namespace pimg

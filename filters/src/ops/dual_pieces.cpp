@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The partition of the picture by the vertices of one level (paper, section 4.2).
+#include <pimg/dual_pieces.h>
+
+#include <pimg/imagebufalgo.h>
+
+#include "ops/partition.h"
+
+namespace pimg {
+namespace ImageBufAlgo {
+
+bool dual_pieces(ImageBuf& dst, const ProgressiveImage& src, const DualPiecesOptions& options, ROI roi, int nthreads)
+{
+    return run_filter(dst, options, [&] {
+        if (!prepare_partition(dst, src, roi, options.output))
+            return false;
+        const Hierarchy& hierarchy = src.data()->hierarchy;
+        Level level = 0;
+        std::string error;
+        DualPieces pieces;
+        if (!find_level(hierarchy, options, level, error)) {
+            dst.errorfmt("{}", error);
+            return false;
+        }
+        if (const Status status = DualPieces::from_hierarchy(hierarchy, pieces); !status) {
+            dst.errorfmt("{}", status.error());
+            return false;
+        }
+        return write_partition(dst, *src.data(), roi, pool_loop(nthreads),
+                               { pieces.count(level), pieces.labels(level) }, options.output);
+    });
+}
+
+bool dual_pieces(ImageBuf& dst, const ImageBuf& src, const DualPiecesOptions& options, ROI roi, int nthreads)
+{
+    ProgressiveImage progressive;
+    return build_source(dst, src, nthreads, progressive) && dual_pieces(dst, progressive, options, roi, nthreads);
+}
+
+ImageBuf dual_pieces(const ImageBuf& src, const DualPiecesOptions& options, ROI roi, int nthreads)
+{
+    return returned("dual_pieces", [&](ImageBuf& dst) { return dual_pieces(dst, src, options, roi, nthreads); });
+}
+
+ImageBuf dual_pieces(const ProgressiveImage& src, const DualPiecesOptions& options, ROI roi, int nthreads)
+{
+    return returned("dual_pieces", [&](ImageBuf& dst) { return dual_pieces(dst, src, options, roi, nthreads); });
+}
+
+}  // namespace ImageBufAlgo
+}  // namespace pimg

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Feature-preserving low-pass: by strength, or as in the paper (section 4.1), where the details of all but the first splits
+// are left out, and the residual, the finest band, unless nothing is.
+#include <pimg/imagebufalgo.h>
+#include <pimg/detail/parallel.h>
+
+#include <cmath>
+
+#include "frame/image_filter.h"
+
+namespace pimg {
+namespace ImageBufAlgo {
+
+namespace {
+
+Level splits_kept(const Hierarchy& hierarchy, const FeatureLowpassOptions& options)
+{
+    if (options.splits >= 0)
+        return std::min(Level(options.splits), hierarchy.levels());
+    return Level(std::lround(double(options.fraction) * hierarchy.levels()));
+}
+
+/// One channel with the details of the first `kept` splits only.
+std::vector<float> lowpass(const Hierarchy& hierarchy, const Bands& bands, Level kept, int exponent)
+{
+    std::vector<float> values(hierarchy.vertices());
+    sweep(hierarchy, bands, values.data(), hierarchy.levels(), [kept](Level i, Detail d) {
+        return i < kept ? d : Detail { 0.0f, 0.0f };
+    });
+    return to_picture(hierarchy, values.data(), exponent, kept == hierarchy.levels() ? &bands.residual : nullptr);
+}
+
+bool by_position(ProgressiveImage::Data& data, const FeatureLowpassOptions& options, const ParallelFor& parallel,
+                 Rasters& results, std::string& error)
+{
+    if (options.log) {
+        error = "log: expected without splits and fraction";
+        return false;
+    }
+    const ChannelBands* channels = data.channel_bands(parallel, error);
+    if (channels == nullptr)
+        return false;
+    const Level kept = splits_kept(data.hierarchy, options);
+    results.resize(channels->bands.size());
+    run(parallel, results.size(),
+        [&](std::size_t i) { results[i] = lowpass(data.hierarchy, channels->bands[i], kept, channels->exponent); });
+    return true;
+}
+
+void by_strength(ProgressiveImage::Data& data, const FeatureLowpassOptions& options, const ParallelFor& parallel,
+                 Rasters& results)
+{
+    const SmoothingData& smoothing = data.smoothing(options.log);
+    SmoothingOptions smoothing_options;
+    smoothing_options.strength = find_strength(options, smoothing);
+    smoothing_options.parallel = parallel;
+    if (smoothing_options.strength == 0.0f) {
+        results = source_channels(data);
+        return;
+    }
+    smooth(data.hierarchy, smoothing.source, smoothing_options, results);
+    to_picture(data.hierarchy, smoothing, results);
+}
+
+}  // namespace
+
+bool feature_lowpass(ImageBuf& dst, const ProgressiveImage& src, const FeatureLowpassOptions& options, ROI roi,
+                     int nthreads)
+{
+    return run_filter(dst, options, [&] {
+        if (!prepare(dst, src, roi, ResultType::as_source))
+            return false;
+        ProgressiveImage::Data& data = *src.data();
+        const ParallelFor parallel = pool_loop(nthreads);
+        const bool positional = options.splits >= 0 || options.fraction >= 0.0f;
+        Rasters results;
+        std::string error;
+        if (!positional) {
+            by_strength(data, options, parallel, results);
+        } else if (!by_position(data, options, parallel, results, error)) {
+            dst.errorfmt("{}", error);
+            return false;
+        }
+        write_channels(dst, data, roi, parallel, results);
+        return true;
+    });
+}
+
+bool feature_lowpass(ImageBuf& dst, const ImageBuf& src, const FeatureLowpassOptions& options, ROI roi, int nthreads)
+{
+    ProgressiveImage progressive;
+    return build_source(dst, src, nthreads, progressive) && feature_lowpass(dst, progressive, options, roi, nthreads);
+}
+
+ImageBuf feature_lowpass(const ImageBuf& src, const FeatureLowpassOptions& options, ROI roi, int nthreads)
+{
+    return returned("feature_lowpass",
+                    [&](ImageBuf& dst) { return feature_lowpass(dst, src, options, roi, nthreads); });
+}
+
+ImageBuf feature_lowpass(const ProgressiveImage& src, const FeatureLowpassOptions& options, ROI roi, int nthreads)
+{
+    return returned("feature_lowpass",
+                    [&](ImageBuf& dst) { return feature_lowpass(dst, src, options, roi, nthreads); });
+}
+
+}  // namespace ImageBufAlgo
+}  // namespace pimg

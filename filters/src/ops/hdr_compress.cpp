@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// HDR compression (paper, section 5.1):
+//   log luminance ──gains──▶ compressed ──exposure──▶ display luminance ──colour ratio──▶ display RGB
+#include <pimg/imagebufalgo.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "source/contrast_envelope.h"
+#include "ops/display_fit.h"
+#include "frame/image_filter.h"
+#include "source/overview.h"
+
+namespace pimg {
+namespace ImageBufAlgo {
+
+namespace {
+
+/// log2 of the luminance at guide value 0 after compression: the base is scaled about luminance 1.
+float compressed_reference(const HdrCompressOptions& options, float reference)
+{
+    return options.s0 * std::log2(reference);
+}
+
+DetailGain gain_of(const HdrCompressOptions& options)
+{
+    return { options.s0, options.beta, options.dmax * kUnitsPerStop };
+}
+
+/// Fills in what is 0 and not found from dmax alone.
+void find_exposure(const Overview& overview, float reference, HdrCompressOptions& options)
+{
+    std::vector<float> envelope, values(overview.bands->plan.places()), cells(overview.hierarchy.mesh_pixels());
+    if (options.coherence > 0.0f)
+        envelope = contrast_envelope(*overview.bands, options.coherence, range_of(options) * kUnitsPerStop, {});
+    compress(*overview.bands, gain_of(options), envelope.empty() ? nullptr : &envelope, {}, values.data());
+    overview.bands->plan.scatter(overview.hierarchy, values.data(), cells.data());
+    crop_to_picture(overview.hierarchy, cells);
+    const float dark = compressed_reference(options, reference);
+    std::vector<float> stops;
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        if (overview.lit[i])
+            stops.push_back(cells[i] / kUnitsPerStop + dark);
+    find_exposure(std::move(stops), dark, options);
+}
+
+/// An Overview is asked for only if there is something to find.
+template<class GetOverview>
+bool resolve(HdrCompressOptions& options, float reference, GetOverview&& get_overview)
+{
+    const bool exposed = !options.fit || (options.key > 0.0f && options.white > 0.0f);
+    const Overview* overview = exposed && options.dmax > 0.0f ? nullptr : get_overview();
+    if (overview == nullptr && !(exposed && options.dmax > 0.0f))
+        return false;
+    find_compression(overview ? overview->range / kUnitsPerStop : 0.0f, options);
+    if (!exposed)
+        find_exposure(*overview, reference, options);
+    return true;
+}
+
+/// The compressed log luminance of every pixel and the options it was made with.
+struct Compressed {
+    HdrCompressOptions options;  ///< resolved
+    const LogLuminance* luminance = nullptr;
+    Scratch samples;
+};
+
+bool compress_luminance(ProgressiveImage::Data& data, const ParallelFor& parallel, Compressed& c, std::string& error)
+{
+    const LogBands* log = data.log_bands(parallel, error);
+    if (log == nullptr)
+        return false;
+    HdrCompressOptions& options = c.options;
+    c.luminance = &log->luminance;
+    if (!resolve(options, log->luminance.reference, [&] { return data.overview(parallel, error); }))
+        return false;
+    const DetailGain gain = gain_of(options);
+    const std::shared_ptr<const PlannedBands> planned = data.planned_log_bands(parallel);
+    Scratch values(data, planned->plan.places());
+    std::shared_ptr<const std::vector<float>> envelope;
+    if (options.coherence > 0.0f)
+        envelope = data.envelope(planned, options.coherence, range_of(options) * kUnitsPerStop, parallel);
+    compress(*planned, gain, envelope.get(), parallel, (*values).data());
+    planned->plan.scatter(data.hierarchy, (*values).data(), (*c.samples).data(), parallel);
+    crop_to_picture(data.hierarchy, *c.samples);
+    compress_residual(data.hierarchy, *log->bands, gain, options.coherence, log->luminance.guide.samples, *c.samples);
+    return true;
+}
+
+/// Makes rows of results.
+class Renderer {
+public:
+    Renderer(const ProgressiveImage::Data& data, const Compressed& compressed)
+        : m_data(data),
+          m_compressed(compressed),
+          m_how(how(data.colour, compressed))
+    {
+        const Colour& colour = data.colour;
+        m_in_place = data.spec.nchannels == 3 && colour.count() == 3 && !colour.encoded() && colour.channel(0) == 0
+                     && colour.channel(1) == 1;
+    }
+
+    void render(int y, const OIIO::ROI& roi, float* row) const
+    {
+        const OIIO::ImageSpec& spec = m_data.source.spec();
+        const std::size_t count = std::size_t(roi.width());
+        const Index first = Index(y - spec.y) * Index(spec.width) + Index(roi.xbegin - spec.x);
+        if (m_in_place)
+            recolour(m_how, compressed(first), guide(first), count, row);
+        else
+            for (std::size_t x = 0; x < count; x += kBatch)
+                render_batch(first + Index(x), std::min(kBatch, count - x), row + x * std::size_t(spec.nchannels));
+        put_back_specials(first, count, row);
+    }
+
+private:
+    static constexpr std::size_t kBatch = 256;
+
+    static Recolour how(const Colour& colour, const Compressed& compressed)
+    {
+        const HdrCompressOptions& options = compressed.options;
+        const float reference = std::log2(compressed.luminance->reference);
+        const float compressed_ref = compressed_reference(options, compressed.luminance->reference);
+        Recolour r { colour.weights(), 1.0f / kUnitsPerStop, compressed_ref - reference, options.saturation, options.fit,
+                     Shoulder(options.fit ? shoulder_white(options) : 1.0f) };
+        if (options.fit) {
+            r.slope = options.contrast / kUnitsPerStop;
+            r.offset = options.contrast * (compressed_ref - std::log2(options.key)) + std::log2(kMiddleGrey)
+                       + options.exposure - reference;
+        }
+        return r;
+    }
+
+    const float* compressed(Index pixel) const { return &(*m_compressed.samples)[pixel]; }
+    const float* guide(Index pixel) const { return &m_compressed.luminance->guide.samples[pixel]; }
+
+    /// Pixels whose colour is not three samples in a row, as displays want them, or not linear.
+    void render_batch(Index first, std::size_t count, float* pixels) const
+    {
+        float rgb[3 * kBatch];
+        linear_pixels(m_data.source, m_data.colour, first, count, rgb);
+        recolour(m_how, compressed(first), guide(first), count, rgb);
+        for (int c = 0; c < m_data.colour.count(); ++c) {
+            float* to = pixels + m_data.colour.channel(c);
+            for (std::size_t i = 0; i < count; ++i)
+                to[i * std::size_t(m_data.spec.nchannels)] = rgb[3 * i + std::size_t(c)];
+        }
+    }
+
+    /// As a display shows them: +Inf white; NaN stays what is around it. In the picture's own units: as they were.
+    void put_back_specials(Index first, std::size_t count, float* row) const
+    {
+        for_specials(m_data, first, count, [&](const SpecialSample& s) {
+            float* pixel = row + std::size_t(s.pixel - first) * std::size_t(m_data.source.nchannels());
+            if (!m_compressed.options.fit)
+                pixel[s.channel] = s.value;
+            else if (s.value > 0.0f)
+                for (int c = 0; c < m_data.colour.count(); ++c)
+                    pixel[m_data.colour.channel(c)] = 1.0f;
+        });
+    }
+
+    const ProgressiveImage::Data& m_data;
+    const Compressed& m_compressed;
+    Recolour m_how;
+    bool m_in_place;  ///< a row of the picture is a row of linear RGB
+};
+
+/// Metadata of what is now linear light.
+void declare_linear(ImageBuf& dst, const Colour& colour)
+{
+    OIIO::ImageSpec& spec = dst.specmod();
+    if (!colour.encoded() && spec.find_attribute("oiio:ColorSpace") != nullptr)
+        return;
+    spec.attribute("oiio:ColorSpace", colour.linear_name());
+    for (const char* stale : { "oiio:Gamma", "ICCProfile", "Exif:ColorSpace", "tiff:ColorSpace", "png:gAMA" })
+        spec.erase_attribute(stale);
+}
+
+}  // namespace
+
+bool resolve_hdr_compress(const ProgressiveImage& src, HdrCompressOptions& options, std::string& error, int nthreads)
+{
+    if (!src.initialized()) {
+        error = src.error().empty() ? "the progressive image has not been built" : src.error();
+        return false;
+    }
+    const ParallelFor parallel = pool_loop(nthreads);
+    HdrCompressOptions resolved = options;
+    const LogBands* log = check_options(options, error) ? src.data()->log_bands(parallel, error) : nullptr;
+    if (log == nullptr
+        || !resolve(resolved, log->luminance.reference, [&] { return src.data()->overview(parallel, error); }))
+        return false;
+    options = resolved;
+    return true;
+}
+
+bool resolve_hdr_compress(const ImageBuf& src, HdrCompressOptions& options, std::string& error,
+                          const BuildOptions& build, int nthreads)
+{
+    ProgressiveImage::Data data;
+    data.options = build;
+    HdrCompressOptions resolved = options;
+    if (!check_options(options, error) || !data.read(src, error))
+        return false;
+    const ParallelFor parallel = pool_loop(nthreads);
+    repair(data.source, data.colour, parallel);
+    const LogLuminance luminance = log_luminance(data.source, data.colour, parallel);
+    Overview overview;
+    const auto look = [&]() -> const Overview* {
+        const Status status = look_from_afar(luminance, parallel, overview);
+        error = status.error();
+        return status ? &overview : nullptr;
+    };
+    if (!resolve(resolved, luminance.reference, look))
+        return false;
+    options = resolved;
+    return true;
+}
+
+bool hdr_compress(ImageBuf& dst, const ProgressiveImage& src, const HdrCompressOptions& options, ROI roi, int nthreads)
+{
+    return run_filter(dst, options, [&] {
+        if (!prepare(dst, src, roi, ResultType::full_float))
+            return false;
+        ProgressiveImage::Data& data = *src.data();
+        const ParallelFor parallel = pool_loop(nthreads);
+        Compressed compressed { options, nullptr, { data, data.hierarchy.mesh_pixels() } };
+        std::string error;
+        if (!compress_luminance(data, parallel, compressed, error)) {
+            dst.errorfmt("{}", error);
+            return false;
+        }
+        const Renderer renderer(data, compressed);
+        write_rows(dst, data, roi, parallel, [&](int y, float* row) { renderer.render(y, roi, row); });
+        declare_linear(dst, data.colour);
+        return true;
+    });
+}
+
+bool hdr_compress(ImageBuf& dst, const ImageBuf& src, const HdrCompressOptions& options, ROI roi, int nthreads)
+{
+    ProgressiveImage progressive;
+    return build_source(dst, src, nthreads, progressive) && hdr_compress(dst, progressive, options, roi, nthreads);
+}
+
+ImageBuf hdr_compress(const ImageBuf& src, const HdrCompressOptions& options, ROI roi, int nthreads)
+{
+    return returned("hdr_compress", [&](ImageBuf& dst) { return hdr_compress(dst, src, options, roi, nthreads); });
+}
+
+ImageBuf hdr_compress(const ProgressiveImage& src, const HdrCompressOptions& options, ROI roi, int nthreads)
+{
+    return returned("hdr_compress", [&](ImageBuf& dst) { return hdr_compress(dst, src, options, roi, nthreads); });
+}
+
+}  // namespace ImageBufAlgo
+}  // namespace pimg

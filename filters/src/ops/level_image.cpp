@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The mesh of one level as a picture (paper, Fig. 1).
+#include "ops/level_image.h"
+
+#include <cmath>
+
+#include <pimg/imagebufalgo.h>
+#include <pimg/rasterize.h>
+
+#include "frame/image_filter.h"
+
+namespace pimg {
+
+bool make_level(ProgressiveImage::Data& data, Level level, bool with_channels, const ParallelFor& parallel,
+                LevelPicture& picture, std::string& error)
+{
+    const Hierarchy& hierarchy = data.hierarchy;
+    const Status status = refine(hierarchy, level, picture.mesh);
+    error = status.error();
+    if (!status || !with_channels)
+        return status.ok();
+    const ChannelBands* channels = data.channel_bands(parallel, error);
+    if (channels == nullptr)
+        return false;
+    std::vector<std::vector<float>> values;
+    std::vector<const float*> inputs;
+    std::vector<float*> outputs;
+    picture.channels.assign(channels->bands.size(), std::vector<float>(hierarchy.mesh_pixels()));
+    for (std::size_t i = 0; i < channels->bands.size(); ++i) {
+        values.push_back(values_at(hierarchy, channels->bands[i], level));
+        inputs.push_back(values.back().data());
+        outputs.push_back(picture.channels[i].data());
+    }
+    rasterize(picture.mesh, inputs, outputs, parallel);
+    for (std::vector<float>& channel : picture.channels) {
+        crop_to_picture(hierarchy, channel);
+        if (channels->exponent != 0)
+            for (float& sample : channel)
+                sample = std::ldexp(sample, channels->exponent);
+    }
+    return true;
+}
+
+namespace ImageBufAlgo {
+
+bool find_level(const Hierarchy& hierarchy, const LevelOptions& options, Level& level, std::string& error)
+{
+    if (!check_options(options, error))
+        return false;
+    level = hierarchy.levels();
+    if (options.splits >= 0)
+        level = std::min(level, Level(options.splits));
+    else if (options.faces >= 0)
+        level = hierarchy.level_of_faces(options.faces);
+    else if (options.vertices >= 0)
+        level = hierarchy.level_of_vertices(options.vertices);
+    else if (options.fraction >= 0.0f)
+        level = hierarchy.level_of_vertices(double(options.fraction) * hierarchy.vertices());
+    else if (options.error >= 0.0f)
+        level = hierarchy.level_of_error(double(options.error));
+    return true;
+}
+
+bool level_image(ImageBuf& dst, const ProgressiveImage& src, const LevelOptions& options, ROI roi, int nthreads)
+{
+    return run_filter(dst, options, [&] {
+        if (!prepare(dst, src, roi, ResultType::as_source))
+            return false;
+        ProgressiveImage::Data& data = *src.data();
+        const ParallelFor parallel = pool_loop(nthreads);
+        Level level = 0;
+        LevelPicture picture;
+        std::string error;
+        if (!find_level(data.hierarchy, options, level, error)
+            || !make_level(data, level, true, parallel, picture, error)) {
+            dst.errorfmt("{}", error);
+            return false;
+        }
+        const Specials specials = level == data.hierarchy.levels() ? Specials::restored : Specials::replaced;
+        write_channels(dst, data, roi, parallel, picture.channels, specials);
+        return true;
+    });
+}
+
+bool level_image(ImageBuf& dst, const ImageBuf& src, const LevelOptions& options, ROI roi, int nthreads)
+{
+    ProgressiveImage progressive;
+    return build_source(dst, src, nthreads, progressive) && level_image(dst, progressive, options, roi, nthreads);
+}
+
+ImageBuf level_image(const ImageBuf& src, const LevelOptions& options, ROI roi, int nthreads)
+{
+    return returned("level_image", [&](ImageBuf& dst) { return level_image(dst, src, options, roi, nthreads); });
+}
+
+ImageBuf level_image(const ProgressiveImage& src, const LevelOptions& options, ROI roi, int nthreads)
+{
+    return returned("level_image", [&](ImageBuf& dst) { return level_image(dst, src, options, roi, nthreads); });
+}
+
+}  // namespace ImageBufAlgo
+}  // namespace pimg

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The dual pieces of a level as the tiles of a mosaic (paper, sections 4.2 and 7).
+#include <pimg/imagebufalgo.h>
+
+#include <algorithm>
+
+#include <pimg/mosaic.h>
+
+#include "frame/image_filter.h"
+#include "ops/painting.h"
+
+namespace pimg {
+namespace ImageBufAlgo {
+
+bool mosaic(ImageBuf& dst, const ProgressiveImage& src, const MosaicOptions& options, ROI roi, int nthreads)
+{
+    return run_filter(dst, options, [&] {
+        if (!prepare(dst, src, roi, ResultType::as_source))
+            return false;
+        ProgressiveImage::Data& data = *src.data();
+        const ParallelFor parallel = pool_loop(nthreads);
+        std::vector<float> grout;
+        if (!parse_colour(options.color, data.colour.count(), grout)) {
+            dst.errorfmt("color: \"{}\": expected a colour, such as black or 0.2,0.2,0.2", options.color);
+            return false;
+        }
+        Mesh mesh;
+        const Level level = data.hierarchy.level_of_vertices(options.tiles);
+        const Status status = refine(data.hierarchy, level, mesh);
+        if (!status) {
+            dst.errorfmt("{}", status.error());
+            return false;
+        }
+        OwnedPlanes planes = stored_planes(data);
+        std::vector<float*> channels;
+        for (std::vector<float>& channel : planes.channels)
+            channels.push_back(channel.data());
+        lay_mosaic(tile(mesh, parallel), mesh.size(), { options.grout, options.bevel, options.relief, parallel }, grout,
+                   channels);
+        for (std::vector<float>& channel : planes.channels)
+            crop_to_picture(data.hierarchy, channel);
+        write_channels(dst, data, roi, parallel, planes.channels, Specials::replaced);
+        return true;
+    });
+}
+
+bool mosaic(ImageBuf& dst, const ImageBuf& src, const MosaicOptions& options, ROI roi, int nthreads)
+{
+    ProgressiveImage progressive;
+    return build_source(dst, src, nthreads, progressive) && mosaic(dst, progressive, options, roi, nthreads);
+}
+
+ImageBuf mosaic(const ImageBuf& src, const MosaicOptions& options, ROI roi, int nthreads)
+{
+    return returned("mosaic", [&](ImageBuf& dst) { return mosaic(dst, src, options, roi, nthreads); });
+}
+
+ImageBuf mosaic(const ProgressiveImage& src, const MosaicOptions& options, ROI roi, int nthreads)
+{
+    return returned("mosaic", [&](ImageBuf& dst) { return mosaic(dst, src, options, roi, nthreads); });
+}
+
+}  // namespace ImageBufAlgo
+}  // namespace pimg

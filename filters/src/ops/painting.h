@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What paint, mosaic and ink share: planes of the mesh's size and a picture's colours as the eye tells them apart.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <OpenImageIO/imagebuf.h>
+#include <pimg/direction.h>
+#include <pimg/stroke_file.h>
+
+#include "source/progressive_image_data.h"
+
+namespace pimg {
+
+/// Channels that own their samples.
+struct OwnedPlanes {
+    int width = 0, height = 0;
+    std::vector<std::vector<float>> channels;
+
+    Planes view() const;
+};
+
+/// The colour channels of the picture as stored, over the mesh's pixels.
+OwnedPlanes stored_planes(const ProgressiveImage::Data& data);
+
+/// Up to three channels in steps of an 8-bit picture. Of a log guide, whose picture holds light: the logarithm, so that shadows count
+/// as lights do, 1/6 of the range to a stop. Else the samples as stored, 256 to an integer format's range or to
+/// the brightest but a thousandth.
+bool eye_planes(ProgressiveImage::Data& data, const ParallelFor& parallel, OwnedPlanes& planes, std::string& error);
+
+/// Darkness of every mesh pixel as a display shows the picture: 1 is black, 0 white.
+std::vector<float> darkness(const ProgressiveImage::Data& data, const OwnedPlanes& eye);
+
+/// A colour: one word (black, white, grey), numbers "0.2" or "0.9,0.8,0.7" in the picture's units. False if it is none.
+bool parse_colour(const std::string& text, int channels, std::vector<float>& values);
+
+/// Reads a picture as float, its first subimage. False, with a message, if that cannot be done.
+bool read_picture(const std::string& filename, OIIO::ImageBuf& picture, std::string& error);
+
+/// Writes strokes to FILE.svg or FILE.json; nothing for an empty name.
+bool write_strokes(const std::string& filename, const Strokes& strokes, const ShownColors& colors, float opacity,
+                   const std::string& ground, std::string& error);
+
+/// Checks the extension before any work is done.
+bool check_strokes_name(const std::string& filename, std::string& error);
+
+/// Linear light 0..1 to sRGB.
+float srgb_encoded(float linear);
+
+}  // namespace pimg

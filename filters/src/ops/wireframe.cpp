@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The edges of a level's mesh.
+#include <pimg/imagebufalgo.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include <pimg/rasterize.h>
+
+#include "frame/image_filter.h"
+#include "ops/level_image.h"
+
+namespace pimg {
+namespace ImageBufAlgo {
+
+namespace {
+
+/// Mixes ink into one channel: black where it is brighter than its mean, else as bright as its brightest.
+void draw_over(const std::vector<float>& coverage, std::vector<float>& channel)
+{
+    const double sum = std::accumulate(channel.begin(), channel.end(), 0.0);
+    const float mean = float(sum / double(channel.size()));
+    const float white = std::min(*std::max_element(channel.begin(), channel.end()), 1.0f);
+    for (std::size_t i = 0; i < channel.size(); ++i) {
+        const float ink = channel[i] > mean ? 0.0f : white;
+        channel[i] += coverage[i] * (ink - channel[i]);
+    }
+}
+
+}  // namespace
+
+bool wireframe(ImageBuf& dst, const ProgressiveImage& src, const WireframeOptions& options, ROI roi, int nthreads)
+{
+    return run_filter(dst, options, [&] {
+        if (!prepare(dst, src, roi, ResultType::as_source))
+            return false;
+        ProgressiveImage::Data& data = *src.data();
+        const ParallelFor parallel = pool_loop(nthreads);
+        Level level = 0;
+        LevelPicture picture;
+        std::string error;
+        if (!find_level(data.hierarchy, options, level, error)
+            || !make_level(data, level, options.overlay, parallel, picture, error)) {
+            dst.errorfmt("{}", error);
+            return false;
+        }
+        std::vector<float> coverage = pimg::wireframe(picture.mesh, options.line);
+        crop_to_picture(data.hierarchy, coverage);
+        if (options.overlay) {
+            for (std::vector<float>& channel : picture.channels)
+                draw_over(coverage, channel);
+        } else {
+            for (float& c : coverage)
+                c = 1.0f - c;
+            picture.channels.assign(std::size_t(data.colour.count()), coverage);
+        }
+        write_channels(dst, data, roi, parallel, picture.channels, Specials::replaced);
+        return true;
+    });
+}
+
+bool wireframe(ImageBuf& dst, const ImageBuf& src, const WireframeOptions& options, ROI roi, int nthreads)
+{
+    ProgressiveImage progressive;
+    return build_source(dst, src, nthreads, progressive) && wireframe(dst, progressive, options, roi, nthreads);
+}
+
+ImageBuf wireframe(const ImageBuf& src, const WireframeOptions& options, ROI roi, int nthreads)
+{
+    return returned("wireframe", [&](ImageBuf& dst) { return wireframe(dst, src, options, roi, nthreads); });
+}
+
+ImageBuf wireframe(const ProgressiveImage& src, const WireframeOptions& options, ROI roi, int nthreads)
+{
+    return returned("wireframe", [&](ImageBuf& dst) { return wireframe(dst, src, options, roi, nthreads); });
+}
+
+}  // namespace ImageBufAlgo
+}  // namespace pimg

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The contrast that details belong to, by which they are compressed.
+#pragma once
+
+#include <vector>
+
+#include <pimg/bands.h>
+#include <pimg/detail/sweep_plan.h>
+
+#include "source/detail_gain.h"
+
+namespace pimg {
+
+/// Bands ready to be swept again and again: details in the order of a plan.
+struct PlannedBands {
+    SweepPlan plan;
+    std::vector<float> base;
+    std::vector<Detail> details;
+
+    PlannedBands(SweepPlan&& plan, const Bands& bands, const ParallelFor& parallel);
+};
+
+/// For every split, in the order of the plan, the contrast its details belong to:
+///     e = coherence * inherited + (1 - coherence) * own
+/// own: the larger of the two details and of the span of the coarser mesh's values at the stencils' vertices.
+/// inherited: what the splits that made those vertices had, by the weights the details are predicted with; the base
+/// mesh has `range`, the dynamic range of the picture.
+///
+/// Why own is not just the detail: a step edge is made of large details and of many small ones that correct the slopes
+/// the coarse mesh had beside it. Eq. (2) on each detail's own size compresses the step, but not the corrections, which
+/// then overshoot: halos and reversed gradients. Measured by the face it corrects, a correction of a steep
+/// face is as compressed as the face itself, and the texture on a plateau, whose faces are flat, is left alone.
+/// Why anything is inherited: the mesh of a coarse level is one of many that would do as well, and a gain that follows its
+/// accidents makes pictures that differ by one pixel, or by a scale, come out visibly different far away.
+std::vector<float> contrast_envelope(const PlannedBands& bands, float coherence, float range, const ParallelFor& parallel);
+
+/// The compressed bands at the finest level, in the places of the plan: the base scaled by gain.s0, both details of a
+/// split by the gain of its contrast in the envelope, or each by that of its own size if there is none.
+void compress(const PlannedBands& bands, const DetailGain& gain, const std::vector<float>* envelope,
+              const ParallelFor& parallel, float* values);
+
+/// Adds the compressed residual to the compressed finest mesh: by the gain of its own size, or of `coherence` times the span of
+/// its face if that is larger. Both rasters are of the picture's size; nothing to do without a residual.
+void compress_residual(const Hierarchy& hierarchy, const Bands& bands, const DetailGain& gain, float coherence,
+                       const std::vector<float>& picture, std::vector<float>& compressed);
+
+}  // namespace pimg

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "source/float_copy.h"
+
+namespace pimg {
+
+bool copy_as_float(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src)
+{
+    const bool packed = src.pixel_stride() == OIIO::stride_t(src.spec().pixel_bytes());
+    if (src.localpixels() == nullptr || packed)
+        return dst.copy(src, OIIO::TypeDesc::FLOAT);
+    OIIO::ImageSpec spec = src.spec();
+    spec.set_format(OIIO::TypeDesc::FLOAT);
+    dst.reset(spec);
+    return src.get_pixels(src.roi(), OIIO::TypeDesc::FLOAT, dst.localpixels());
+}
+
+}  // namespace pimg

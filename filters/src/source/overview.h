@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The picture from afar, from which compression and exposure are found. It is as coarse for a preview as for the final
+// picture, and means of light are the same in both, so they come out alike; noise and single pixels hardly count.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <pimg/hierarchy.h>
+#include <pimg/types.h>
+
+#include "source/contrast_envelope.h"
+#include "source/guide.h"
+
+namespace pimg {
+
+struct Overview {
+    std::vector<float> log;  ///< log2 of the mean luminance in every cell of a coarse grid, in guide units
+    std::vector<char> lit;   ///< whether a cell is not black, which says nothing of the light
+    float range = 0.0f;      ///< dynamic range of the lit cells, in guide units
+    Hierarchy hierarchy;     ///< of the cells
+    std::unique_ptr<PlannedBands> bands;
+};
+
+Status look_from_afar(const LogLuminance& luminance, const ParallelFor& parallel, Overview& overview);
+
+/// The number at a quantile, 0..1, of sorted ones; 0 if there are none.
+float quantile(const std::vector<float>& sorted, double q);
+
+}  // namespace pimg

@@ -1,0 +1,457 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pimg/progressive_image.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+#include <OpenImageIO/strutil.h>
+
+#include <pimg/detail/parallel.h>
+#include <pimg/threads.h>
+
+#include "source/contrast_envelope.h"
+#include "source/float_copy.h"
+#include "colour/lab.h"
+#include "source/progressive_image_data.h"
+
+namespace pimg {
+
+namespace {
+
+/// Seconds since the last call.
+class Stopwatch {
+public:
+    double lap()
+    {
+        const auto now = std::chrono::steady_clock::now();
+        return std::chrono::duration<double>(now - std::exchange(m_start, now)).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
+};
+
+/// Samples of one channel, one per mesh pixel, times 2^-exponent.
+std::vector<float> mesh_samples(const ProgressiveImage::Data& data, int channel, int exponent)
+{
+    std::vector<float> samples = channel_samples(data, channel);
+    if (exponent != 0)
+        for (float& sample : samples)
+            sample = std::ldexp(sample, -exponent);
+    return to_mesh_pixels(data.hierarchy, samples.data());
+}
+
+/// Brightness of an image file of the guide's size: the mean of its colour channels.
+bool read_control_map(const std::string& filename, const Guide& guide, std::vector<float>& map, std::string& error)
+{
+    OIIO::ImageBuf file(filename);
+    if (!file.read(0, 0, true, OIIO::TypeDesc::FLOAT)) {
+        error = "control=\"" + filename + "\": expected gradient, curvature or an image file: " + file.geterror();
+        return false;
+    }
+    const OIIO::ImageSpec& spec = file.spec();
+    if (spec.width != guide.width || spec.height != guide.height) {
+        error = "control=\"" + filename + "\": expected an image of the picture's size";
+        return false;
+    }
+    const int colours = std::min(spec.nchannels, 3);
+    map.resize(spec.image_pixels());
+    const float* p = static_cast<const float*>(file.localpixels());
+    for (float& value : map) {
+        value = 0.0f;
+        for (int c = 0; c < colours; ++c)
+            value += p[c];
+        p += spec.nchannels;
+    }
+    return true;
+}
+
+/// One positive factor per guide channel from "1,0.5,0.5"; nothing from "".
+bool parse_weights(const std::string& text, std::size_t channels, std::vector<float>& weights, std::string& error)
+{
+    for (const std::string& word : OIIO::Strutil::splits(text, ",")) {
+        const float weight = OIIO::Strutil::string_is_float(word) ? OIIO::Strutil::stof(word) : 0.0f;
+        if (weight > 0.0f && std::isfinite(weight))
+            weights.push_back(weight);
+    }
+    const std::size_t given = text.empty() ? 0 : 1 + std::size_t(std::count(text.begin(), text.end(), ','));
+    if (given == weights.size() && (given == 0 || given == channels))
+        return true;
+    error = OIIO::Strutil::fmt::format("weights=\"{}\": expected {} number{} above 0, one for each channel of the guide", text,
+                                       channels, channels == 1 ? "" : "s");
+    return false;
+}
+
+std::size_t bytes(const Bands& bands)
+{
+    return (bands.base.capacity() + bands.residual.capacity()) * sizeof(float)
+        + bands.details.capacity() * sizeof(Detail);
+}
+
+}  // namespace
+
+std::vector<float> channel_samples(const ProgressiveImage::Data& data, int channel)
+{
+    const float* p = static_cast<const float*>(data.source.localpixels()) + channel;
+    std::vector<float> samples(data.spec.image_pixels());
+    for (float& sample : samples) {
+        sample = *p;
+        p += data.source.nchannels();
+    }
+    return samples;
+}
+
+bool ProgressiveImage::Data::read(const OIIO::ImageBuf& src, std::string& error)
+{
+    if (!src.initialized()) {
+        error = src.has_error() ? src.geterror(false) : "the picture is not initialized";
+        return false;
+    }
+    if (src.deep()) {
+        error = "deep images not supported";
+        return false;
+    }
+    spec = src.spec();
+    if (spec.depth > 1) {
+        error = "volumes not supported";
+        return false;
+    }
+    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) {
+        error = "the picture is empty";
+        return false;
+    }
+    if (!copy_as_float(source, src) || source.localpixels() == nullptr) {
+        error = source.has_error() ? source.geterror() : src.geterror(false);
+        return false;
+    }
+    // What the file stored tells an 8-bit picture that was read as float from a scene-referred one.
+    OIIO::ImageSpec stored = spec;
+    stored.format = src.nativespec().format;
+    m_whole_numbers = !stored.format.is_floating_point();
+    stats.guide = !options.guide.empty() ? options.guide : m_whole_numbers ? "luma" : "log";
+    return Colour::resolve(stored, options.incolorspace, colour, error);
+}
+
+/// Leaves `mesh` empty if every pixel is to be a vertex.
+bool ProgressiveImage::Data::find_initial_mesh(const Guide& guide, const ParallelFor& parallel,
+                                               const Progress& progress, InitialMesh& mesh, std::string& error) const
+{
+    if (options.mesh != "adaptive" || guide.width < 2 || guide.height < 2)
+        return true;
+    SamplingOptions sampling;
+    sampling.density = double(options.density);
+    sampling.control = options.control == "curvature" ? Control::curvature : Control::gradient;
+    sampling.parallel = parallel;
+    if (progress)
+        sampling.progress = [&](float) {
+            return progress(0.0f);
+        };
+    std::vector<float> map;
+    if (options.control != "gradient" && options.control != "curvature") {
+        if (!read_control_map(options.control, guide, map, error))
+            return false;
+        sampling.map = map.data();
+    }
+    const Status status = sample(guide, sampling, mesh);
+    error = status.error();
+    return status.ok();
+}
+
+bool ProgressiveImage::Data::hierarchy_of_guide(const MakeHierarchy& make_hierarchy, const ParallelFor& parallel,
+                                                std::string& error)
+{
+    Stopwatch watch;
+    specials = repair(source, colour, parallel);
+    std::vector<Raster> channels(1);
+    if (stats.guide == "log") {
+        m_log = std::make_unique<LogBands>();
+        m_log->luminance = log_luminance(source, colour, parallel);
+        channels[0] = std::move(m_log->luminance.guide);
+    } else if (stats.guide == "lab")
+        channels = lab_guide(source, colour, parallel);
+    else {
+        StoredGuide stored = stored_guide(source, colour, stats.guide == "rgb", m_whole_numbers, parallel);
+        m_guide_scale = stored.scale;
+        m_guide_clipped = stored.clipped;
+        channels = std::move(stored.channels);
+    }
+    stats.guide_seconds = watch.lap();
+
+    const Status status = make_hierarchy(channels);
+    error = status.error();
+    stats.simplify_seconds = watch.lap() - stats.sample_seconds;
+    if (m_log != nullptr && status) {
+        m_log->luminance.guide = std::move(channels[0]);
+        m_log->bands = &guide_bands[0];
+    }
+    return status.ok();
+}
+
+Status ProgressiveImage::Data::simplify_guide(const std::vector<Raster>& channels, const ParallelFor& parallel,
+                                              const Progress& progress)
+{
+    std::string error;
+    std::vector<float> weights;
+    if (!parse_weights(options.weights, channels.size(), weights, error))
+        return Status::failure(error);
+    Guide guide { channels[0].width, channels[0].height, {} };
+    for (std::size_t i = 0; i < channels.size(); ++i)
+        guide.channels.push_back({ channels[i].samples.data(), weights.empty() ? 1.0f : weights[i] });
+    if (options.metric != "volume" && options.mesh == "adaptive")
+        return Status::failure("metric=" + options.metric + ": expected volume with mesh=adaptive");
+    Stopwatch watch;
+    InitialMesh initial;
+    if (!find_initial_mesh(guide, parallel, progress, initial, error))
+        return Status::failure(error);
+    stats.sample_seconds = watch.lap();
+
+    SimplifyOptions simplify_options;
+    simplify_options.base_faces = Index(options.base);
+    simplify_options.metric = options.metric == "quadric" ? Metric::quadric
+                              : options.metric == "exact" ? Metric::exact
+                                                          : Metric::volume;
+    simplify_options.parallel = parallel;
+    simplify_options.progress = progress;
+    if (initial.vertices() > 0)
+        simplify_options.initial = &initial;
+    return simplify(guide, simplify_options, hierarchy, guide_bands, &stats.engine);
+}
+
+Status ProgressiveImage::Data::adopt(const std::vector<Raster>& channels, const StoredHierarchy& stored)
+{
+    Hierarchy shape;
+    shape.width = spec.width, shape.height = spec.height;
+    std::vector<std::vector<float>> samples;
+    std::vector<const float*> pointers;
+    for (const Raster& channel : channels)
+        samples.push_back(to_mesh_pixels(shape, channel.samples.data()));
+    for (const std::vector<float>& channel : samples)
+        pointers.push_back(channel.data());
+    const Status status = stored(pointers, hierarchy, guide_bands);
+    if (status
+        && (hierarchy.width != spec.width || hierarchy.height != spec.height || guide_bands.size() != channels.size()))
+        return Status::failure("the stored hierarchy is not one of this picture");
+    return status;
+}
+
+const LogBands* ProgressiveImage::Data::log_bands(const ParallelFor& parallel, std::string& error)
+{
+    std::lock_guard<std::mutex> lock(m_mutex);
+    if (m_log != nullptr)
+        return m_log.get();
+    auto log = std::make_unique<LogBands>();
+    log->luminance = log_luminance(source, colour, parallel);
+    const std::vector<float> samples = to_mesh_pixels(hierarchy, log->luminance.guide.samples.data());
+    std::vector<Bands> bands;
+    const Status status = analyse(hierarchy, { samples.data() }, bands, parallel);
+    error = status.error();
+    if (!status)
+        return nullptr;
+    m_log_bands = std::move(bands[0]);
+    log->bands = &m_log_bands;
+    m_log = std::move(log);
+    return m_log.get();
+}
+
+std::shared_ptr<const PlannedBands> ProgressiveImage::Data::planned_log_bands(const ParallelFor& parallel)
+{
+    std::lock_guard<std::mutex> lock(m_mutex);
+    if (m_log_sweeps < 2) {
+        SweepPlan plan = m_log_sweeps == 0 ? SweepPlan::as_it_is(hierarchy) : SweepPlan(hierarchy, parallel);
+        m_planned_log = std::make_shared<const PlannedBands>(std::move(plan), *m_log->bands, parallel);
+        ++m_log_sweeps;
+    }
+    return m_planned_log;
+}
+
+bool ProgressiveImage::Data::are_channels_the_guide() const
+{
+    return !m_guide_clipped && (stats.guide == "rgb" || (stats.guide == "luma" && colour.count() < 2));
+}
+
+const ChannelBands* ProgressiveImage::Data::channel_bands(const ParallelFor& parallel, std::string& error)
+{
+    std::lock_guard<std::mutex> lock(m_mutex);
+    if (m_channels != nullptr)
+        return m_channels.get();
+    auto channels = std::make_unique<ChannelBands>();
+    if (are_channels_the_guide()) {
+        channels->bands = guide_bands;
+        channels->exponent = -std::ilogb(m_guide_scale);
+    } else {
+        const float* p = static_cast<const float*>(source.localpixels());
+        float largest = 0.0f;
+        for (std::size_t i = 0; i < spec.image_pixels(); ++i, p += spec.nchannels)
+            for (int c = 0; c < colour.count(); ++c)
+                largest = std::max(largest, std::fabs(p[colour.channel(c)]));
+        channels->exponent = largest > 0x1p100f ? 30 : 0;
+        std::vector<std::vector<float>> samples;
+        std::vector<const float*> pointers;
+        for (int c = 0; c < colour.count(); ++c)
+            samples.push_back(mesh_samples(*this, colour.channel(c), channels->exponent));
+        for (const std::vector<float>& channel : samples)
+            pointers.push_back(channel.data());
+        const Status status = analyse(hierarchy, pointers, channels->bands, parallel);
+        error = status.error();
+        if (!status)
+            return nullptr;
+    }
+    m_channels = std::move(channels);
+    return m_channels.get();
+}
+
+const SmoothingData& ProgressiveImage::Data::smoothing(bool log)
+{
+    std::lock_guard<std::mutex> lock(m_mutex);
+    std::unique_ptr<SmoothingData>& cached = m_smoothing[log ? 1 : 0];
+    if (cached == nullptr)
+        cached = std::make_unique<SmoothingData>(prepare_smoothing(*this, log));
+    return *cached;
+}
+
+const Overview* ProgressiveImage::Data::overview(const ParallelFor& parallel, std::string& error)
+{
+    const LogBands* log = log_bands(parallel, error);
+    std::lock_guard<std::mutex> lock(m_mutex);
+    if (log == nullptr || m_overview != nullptr)
+        return m_overview.get();
+    auto overview = std::make_unique<Overview>();
+    const Status status = look_from_afar(log->luminance, parallel, *overview);
+    error = status.error();
+    if (status)
+        m_overview = std::move(overview);
+    return m_overview.get();
+}
+
+std::shared_ptr<const std::vector<float>> ProgressiveImage::Data::envelope(
+    const std::shared_ptr<const PlannedBands>& planned, float coherence, float range, const ParallelFor& parallel)
+{
+    std::lock_guard<std::mutex> lock(m_mutex);
+    if (m_envelope_bands != planned || m_envelope_coherence != coherence || m_envelope_range != range) {
+        m_envelope =
+            std::make_shared<const std::vector<float>>(contrast_envelope(*planned, coherence, range, parallel));
+        m_envelope_bands = planned;
+        m_envelope_coherence = coherence;
+        m_envelope_range = range;
+    }
+    return m_envelope;
+}
+
+std::vector<float> ProgressiveImage::Data::take_scratch()
+{
+    std::lock_guard<std::mutex> lock(m_mutex);
+    std::vector<float> scratch;
+    if (!m_scratch.empty()) {
+        scratch = std::move(m_scratch.back());
+        m_scratch.pop_back();
+    }
+    return scratch;
+}
+
+void ProgressiveImage::Data::keep_scratch(std::vector<float>&& scratch)
+{
+    constexpr std::size_t kKept = 2;
+    std::lock_guard<std::mutex> lock(m_mutex);
+    if (m_scratch.size() < kKept)
+        m_scratch.push_back(std::move(scratch));
+}
+
+std::size_t ProgressiveImage::Data::memory()
+{
+    std::lock_guard<std::mutex> lock(m_mutex);
+    std::size_t total = spec.image_pixels() * std::size_t(spec.nchannels) * sizeof(float) + hierarchy.memory()
+        + bytes(m_log_bands) + specials.capacity() * sizeof(SpecialSample);
+    for (const Bands& bands : guide_bands)
+        total += bytes(bands);
+    if (m_log != nullptr)
+        total += m_log->luminance.guide.samples.capacity() * sizeof(float);
+    if (m_planned_log != nullptr)
+        total += m_planned_log->plan.memory() + m_planned_log->details.capacity() * sizeof(Detail);
+    if (m_channels != nullptr)
+        for (const Bands& bands : m_channels->bands)
+            total += bytes(bands);
+    for (const std::unique_ptr<SmoothingData>& smoothing : m_smoothing)
+        total += smoothing != nullptr ? smoothing->source.memory() : 0;
+    if (m_regions != nullptr)
+        total += m_regions->memory();
+    for (const std::vector<float>& scratch : m_scratch)
+        total += scratch.capacity() * sizeof(float);
+    if (m_envelope != nullptr)
+        total += m_envelope->capacity() * sizeof(float);
+    return total;
+}
+
+bool ProgressiveImage::build(const OIIO::ImageBuf& src, const BuildOptions& options, int nthreads, Progress progress)
+{
+    return make(src, options, [&](Data& data, std::string& error) {
+        const ParallelFor parallel = pool_loop(nthreads);
+        const auto simplify = [&](const auto& guide) { return data.simplify_guide(guide, parallel, progress); };
+        return data.hierarchy_of_guide(simplify, parallel, error);
+    });
+}
+
+bool ProgressiveImage::adopt(const OIIO::ImageBuf& src, const StoredHierarchy& stored, const BuildOptions& options,
+                             int nthreads)
+{
+    return make(src, options, [&](Data& data, std::string& error) {
+        return data.hierarchy_of_guide([&](const auto& guide) { return data.adopt(guide, stored); },
+                                       pool_loop(nthreads), error);
+    });
+}
+
+bool ProgressiveImage::make(const OIIO::ImageBuf& src, const BuildOptions& options, const MakeHierarchy& make_hierarchy)
+{
+    m_data.reset();
+    m_error.clear();
+    try {
+        auto data = std::make_shared<Data>();
+        data->options = options;
+        Stopwatch watch;
+        if (check_options(options, m_error) && data->read(src, m_error)) {
+            data->stats.read_seconds = watch.lap();
+            if (make_hierarchy(*data, m_error))
+                m_data = std::move(data);
+        }
+    } catch (const std::bad_alloc&) {
+        m_error = "not enough memory";
+    } catch (const std::exception& exception) {
+        m_error = exception.what();
+    }
+    if (m_data == nullptr && m_error.empty())
+        m_error = "the picture cannot be read";
+    return m_data != nullptr;
+}
+
+const Hierarchy& ProgressiveImage::hierarchy() const
+{
+    return m_data->hierarchy;
+}
+const std::vector<Bands>& ProgressiveImage::guide_bands() const
+{
+    return m_data->guide_bands;
+}
+const OIIO::ImageBuf& ProgressiveImage::source() const
+{
+    return m_data->source;
+}
+const OIIO::ImageSpec& ProgressiveImage::spec() const
+{
+    return m_data->spec;
+}
+const BuildOptions& ProgressiveImage::options() const
+{
+    return m_data->options;
+}
+const BuildStats& ProgressiveImage::stats() const
+{
+    return m_data->stats;
+}
+std::size_t ProgressiveImage::memory() const
+{
+    return m_data->memory();
+}
+
+}  // namespace pimg

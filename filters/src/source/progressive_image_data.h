@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the filters share of a progressive image: everything they would otherwise compute again for
+// each new parameter.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include <pimg/progressive_image.h>
+#include <pimg/regions.h>
+#include <pimg/sampling.h>
+
+#include "source/contrast_envelope.h"
+#include "source/guide.h"
+#include "source/overview.h"
+#include "source/smoothing_data.h"
+
+namespace pimg {
+
+/// Bands of log luminance, whatever the guide was.
+struct LogBands {
+    LogLuminance luminance;
+    const Bands* bands = nullptr;
+};
+
+/// Bands of the colour channels as stored. `exponent`: samples were scaled by 2^-exponent so that sums of
+/// them stay finite.
+struct ChannelBands {
+    std::vector<Bands> bands;
+    int exponent = 0;
+};
+
+struct ProgressiveImage::Data {
+    OIIO::ImageBuf source;
+    OIIO::ImageSpec spec;
+    BuildOptions options;
+    Colour colour;
+    std::vector<SpecialSample> specials;  ///< by pixel, then channel
+    Hierarchy hierarchy;
+    std::vector<Bands> guide_bands;
+    BuildStats stats;
+
+    /// These fill a cache at the first call. Null, with an error, only if the hierarchy is damaged.
+    const LogBands* log_bands(const ParallelFor& parallel, std::string& error);
+    const ChannelBands* channel_bands(const ParallelFor& parallel, std::string& error);
+
+    /// The same bands, after log_bands(), for a sweep more: planned from the second time on, when it pays.
+    std::shared_ptr<const PlannedBands> planned_log_bands(const ParallelFor& parallel);
+
+    /// Likewise; `log`: of the logarithms of the channels.
+    const SmoothingData& smoothing(bool log);
+
+    /// What compression and exposure are found from.
+    const Overview* overview(const ParallelFor& parallel, std::string& error);
+
+    /// See contrast_envelope(). Kept for what it was last asked for.
+    std::shared_ptr<const std::vector<float>> envelope(const std::shared_ptr<const PlannedBands>& planned, float coherence,
+                                                       float range, const ParallelFor& parallel);
+
+    /// A vector that held a raster before, if one is left: new memory would have to be cleared for every new setting.
+    std::vector<float> take_scratch();
+    void keep_scratch(std::vector<float>&& scratch);
+
+    /// Merges of the picture's pieces, fit for cuts into `regions` regions. Kept. Null, with an error, like the bands.
+    std::shared_ptr<const RegionTree> region_tree(std::size_t regions, const ParallelFor& parallel,
+                                                  std::string& error);
+
+    std::size_t memory();
+
+    /// The steps of build() and adopt(). `make_hierarchy` fills in the hierarchy and the bands of the guide.
+    using MakeHierarchy = std::function<Status(const std::vector<Raster>& guide)>;
+    bool read(const OIIO::ImageBuf& src, std::string& error);
+    bool hierarchy_of_guide(const MakeHierarchy& make_hierarchy, const ParallelFor& parallel, std::string& error);
+    Status simplify_guide(const std::vector<Raster>& guide, const ParallelFor& parallel, const Progress& progress);
+    Status adopt(const std::vector<Raster>& guide, const StoredHierarchy& stored);
+    bool find_initial_mesh(const Guide& guide, const ParallelFor& parallel, const Progress& progress, InitialMesh& mesh,
+                           std::string& error) const;
+
+private:
+    bool are_channels_the_guide() const;
+
+    std::mutex m_mutex;
+    std::unique_ptr<LogBands> m_log;
+    std::unique_ptr<ChannelBands> m_channels;
+    std::unique_ptr<SmoothingData> m_smoothing[2];  ///< as stored, logarithms
+    bool m_whole_numbers = false;                   ///< the picture's own samples are integers, here 0..1
+    float m_guide_scale = 0.0f;                     ///< see StoredGuide; of luma and rgb guides
+    bool m_guide_clipped = false;
+    Bands m_log_bands;  ///< if they are not the guide's
+    std::shared_ptr<const PlannedBands> m_planned_log;
+    int m_log_sweeps = 0;
+    std::unique_ptr<Overview> m_overview;
+    std::shared_ptr<const PlannedBands> m_envelope_bands;
+    float m_envelope_coherence = -1.0f, m_envelope_range = 0.0f;
+    std::shared_ptr<const std::vector<float>> m_envelope;
+    std::shared_ptr<const RegionTree> m_regions;
+    std::vector<std::vector<float>> m_scratch;
+};
+
+/// Samples of one channel of the source, row-major.
+std::vector<float> channel_samples(const ProgressiveImage::Data& data, int channel);
+
+/// `size` floats without a particular value, kept by the image for the next who needs some.
+class Scratch {
+public:
+    Scratch(ProgressiveImage::Data& data, std::size_t size) : m_data(data), m_values(data.take_scratch())
+    {
+        m_values.resize(size);
+    }
+    Scratch(const Scratch&) = delete;
+    Scratch& operator=(const Scratch&) = delete;
+    ~Scratch() { m_data.keep_scratch(std::move(m_values)); }
+
+    std::vector<float>& operator*() { return m_values; }
+    const std::vector<float>& operator*() const { return m_values; }
+
+private:
+    ProgressiveImage::Data& m_data;
+    std::vector<float> m_values;
+};
+
+}  // namespace pimg

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What segmentation keeps of a progressive image: the merges of its pieces.
+#include <algorithm>
+
+#include <pimg/dual_pieces.h>
+#include <pimg/regions.h>
+
+#include "colour/lab.h"
+#include "source/progressive_image_data.h"
+
+namespace pimg {
+
+namespace {
+
+/// Share of the picture's vertices at the level whose dual pieces are merged. Finer ones take longer and do not
+/// give better regions.
+constexpr double kPieceFraction = 0.125;
+
+/// Largest variance of CIELAB within such a piece. The guide need not have seen what makes it vary; so its
+/// pixels are taken one by one.
+constexpr double kMostVariance = 25.0;
+
+/// Regions that are still chosen well from pieces: a quarter of their number. More need pixels.
+constexpr std::size_t kPiecesPerRegion = 4;
+
+using Channels = std::vector<std::vector<float>>;
+
+std::vector<bool> is_mixed(const std::vector<Index>& labels, Index count, const Channels& lab)
+{
+    struct Sums {
+        double area = 0, squares = 0, first[3] = { 0, 0, 0 };
+    };
+    std::vector<Sums> sums(count);
+    for (std::size_t p = 0; p < labels.size(); ++p) {
+        Sums& s = sums[labels[p]];
+        s.area += 1.0;
+        for (std::size_t c = 0; c < lab.size(); ++c) {
+            s.first[c] += double(lab[c][p]);
+            s.squares += double(lab[c][p]) * double(lab[c][p]);
+        }
+    }
+    std::vector<bool> mixed(count);
+    for (Index v = 0; v < count; ++v) {
+        const Sums& s = sums[v];
+        double mean = 0;
+        for (const double first : s.first)
+            mean += first * first / s.area;
+        mixed[v] = s.squares - mean > kMostVariance * s.area;
+    }
+    return mixed;
+}
+
+/// Dual pieces of one colour, and the pixels of those that are not.
+bool uniform_pieces(const Hierarchy& hierarchy, const Channels& lab, std::vector<Index>& labels, std::string& error)
+{
+    DualPieces pieces;
+    if (const Status status = DualPieces::from_hierarchy(hierarchy, pieces); !status) {
+        error = status.error();
+        return false;
+    }
+    const Level level = hierarchy.level_of_vertices(kPieceFraction * double(lab[0].size()));
+    const Index count = pieces.count(level);
+    labels = pieces.labels(level);
+    const std::vector<bool> mixed = is_mixed(labels, count, lab);
+    for (std::size_t p = 0; p < labels.size(); ++p)
+        if (mixed[labels[p]])
+            labels[p] = count + Index(p);
+    return true;
+}
+
+}  // namespace
+
+std::shared_ptr<const RegionTree> ProgressiveImage::Data::region_tree(std::size_t regions, const ParallelFor& parallel,
+                                                                      std::string& error)
+{
+    std::lock_guard<std::mutex> lock(m_mutex);
+    const std::size_t pixels = spec.image_pixels();
+    if (m_regions != nullptr && (m_regions->leaves() >= kPiecesPerRegion * regions || m_regions->leaves() == pixels))
+        return m_regions;
+    const Channels lab = lab_channels(source, colour, parallel);
+    RegionInput input { spec.width, spec.height, {}, nullptr };
+    for (const std::vector<float>& channel : lab)
+        input.channels.push_back(channel.data());
+    std::vector<Index> labels;
+    auto tree = std::make_shared<RegionTree>();
+    Status status;
+    if (kPiecesPerRegion * regions < pixels && uniform_pieces(hierarchy, lab, labels, error)) {
+        input.pieces = &labels;
+        status = RegionTree::build(input, {}, *tree);
+    }
+    if (status && tree->leaves() < kPiecesPerRegion * regions) {
+        input.pieces = nullptr;
+        status = RegionTree::build(input, {}, *tree);
+    }
+    if (!status) {
+        error = status.error();
+        return nullptr;
+    }
+    return m_regions = std::move(tree);
+}
+
+}  // namespace pimg

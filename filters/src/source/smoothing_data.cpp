@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "source/smoothing_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "source/progressive_image_data.h"
+#include "source/to_picture.h"
+
+namespace pimg {
+
+namespace {
+
+constexpr float kDefaultStrength = 0.03f;  ///< of the range of a picture from an integer format
+constexpr float kDefaultStops = 0.3f;
+constexpr float kUnitBelowMiddle = 0x1p-10f;
+constexpr float kLargest = 0x1p100f;  ///< sums and squares of larger samples are scaled down
+constexpr float kSteep = 0x1p12f;     ///< ratio to the unit above which the logarithm alone is exact enough
+
+SignedLog find_scale(const Rasters& samples)
+{
+    std::vector<float> magnitudes;
+    for (const std::vector<float>& channel : samples)
+        magnitudes.insert(magnitudes.end(), channel.begin(), channel.end());
+    for (float& m : magnitudes)
+        m = std::fabs(m);
+    const float middle = MagnitudeHistogram(magnitudes).quantile(0.5);
+    return SignedLog(std::max(middle, 0x1p-100f) * kUnitBelowMiddle);
+}
+
+int find_exponent(const Rasters& samples)
+{
+    for (const std::vector<float>& channel : samples)
+        if (std::any_of(channel.begin(), channel.end(), [](float v) { return std::fabs(v) > kLargest; }))
+            return 30;
+    return 0;
+}
+
+}  // namespace
+
+// asinh(x / 2u) / ln 2 = log2(a + sqrt(a^2 + 1)) for a = x / 2u > 0.
+void SignedLog::to_log(float* values, std::size_t count) const
+{
+    std::vector<float> magnitudes(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const float a = std::min(0.5f * std::fabs(values[i]) / m_unit, 0x1p126f);
+        magnitudes[i] = a > kSteep ? 2.0f * a : a + std::sqrt(a * a + 1.0f);
+    }
+    log2_in_place(magnitudes.data(), count);
+    for (std::size_t i = 0; i < count; ++i)
+        values[i] = std::copysign(magnitudes[i], values[i]);
+}
+
+void SignedLog::from_log(float* values, std::size_t count) const
+{
+    std::vector<float> powers(values, values + count);
+    for (float& p : powers)
+        p = std::fabs(p);
+    exp2_in_place(powers.data(), count);
+    for (std::size_t i = 0; i < count; ++i)
+        values[i] = std::copysign(m_unit * (powers[i] - 1.0f / powers[i]), values[i]);
+}
+
+Rasters source_channels(const ProgressiveImage::Data& data)
+{
+    Rasters samples;
+    for (int c = 0; c < data.colour.count(); ++c)
+        samples.push_back(channel_samples(data, data.colour.channel(c)));
+    return samples;
+}
+
+SmoothingData prepare_smoothing(const ProgressiveImage::Data& data, bool log)
+{
+    SmoothingData result;
+    Rasters samples = source_channels(data);
+    result.log = log;
+    if (log)
+        result.scale = find_scale(samples);
+    else
+        result.exponent = find_exponent(samples);
+    for (std::vector<float>& channel : samples) {
+        if (log)
+            result.scale.to_log(channel.data(), channel.size());
+        else if (result.exponent != 0)
+            for (float& sample : channel)
+                sample = std::ldexp(sample, -result.exponent);
+    }
+    result.noise = noise_level(samples, data.spec.width, data.spec.height);
+    for (std::vector<float>& channel : samples)
+        channel = to_mesh_pixels(data.hierarchy, channel.data());
+    result.source = analyse_for_smoothing(data.hierarchy, std::move(samples));
+    return result;
+}
+
+float find_strength(const StrengthOptions& options, const SmoothingData& smoothing)
+{
+    if (options.noise >= 0.0f)
+        return options.noise * smoothing.noise;
+    if (options.strength >= 0.0f)
+        return std::ldexp(options.strength, -smoothing.exponent);
+    return smoothing.log ? kDefaultStops : std::ldexp(kDefaultStrength, -smoothing.exponent);
+}
+
+void to_picture(const Hierarchy& hierarchy, const SmoothingData& smoothing, Rasters& results)
+{
+    for (std::vector<float>& samples : results) {
+        crop_to_picture(hierarchy, samples);
+        if (smoothing.log)
+            smoothing.scale.from_log(samples.data(), samples.size());
+        else if (smoothing.exponent != 0)
+            for (float& sample : samples)
+                sample = std::ldexp(sample, smoothing.exponent);
+    }
+}
+
+}  // namespace pimg

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Distances to the sides of the pieces' polygons. The polygons of all vertices share their sides and cover the plane, but
+// for folds where a star is very concave; there the tile deeper inside wins, which keeps every pixel on one tile.
+#include <pimg/mosaic.h>
+#include <pimg/detail/parallel.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <pimg/strokes.h>
+
+namespace pimg {
+
+namespace {
+
+constexpr int kStrip = 64;
+
+struct Depth {
+    float inside, x, y;
+};
+
+/// How deep `p` is inside the polygon: negative outside.
+Depth depth_of(Vec2 p, const std::vector<Vec2>& polygon, Vec2 far_corner)
+{
+    bool in = false;
+    Depth nearest { 1e30f, 0.0f, 0.0f };
+    for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+        const Vec2 a = polygon[j], b = polygon[i];
+        if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y))
+            in = !in;
+        // Sides on the picture's border are no joints.
+        if ((a.x <= 0 && b.x <= 0) || (a.y <= 0 && b.y <= 0) || (a.x >= far_corner.x && b.x >= far_corner.x)
+            || (a.y >= far_corner.y && b.y >= far_corner.y))
+            continue;
+        const float dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
+        const float t = square > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / square, 0.0f, 1.0f) : 0.0f;
+        const float ox = p.x - (a.x + t * dx), oy = p.y - (a.y + t * dy), distance = std::sqrt(ox * ox + oy * oy);
+        if (distance < nearest.inside)
+            nearest = { distance, distance > 0 ? ox / distance : 0.0f, distance > 0 ? oy / distance : 0.0f };
+    }
+    return in ? nearest : Depth { -nearest.inside, -nearest.x, -nearest.y };
+}
+
+}  // namespace
+
+Tiling tile(const Mesh& mesh, const ParallelFor& parallel)
+{
+    Tiling tiling;
+    tiling.width = mesh.extent().x / kSubpixels + 1;
+    tiling.height = mesh.extent().y / kSubpixels + 1;
+    const std::size_t pixels = std::size_t(tiling.width) * std::size_t(tiling.height);
+    tiling.tile.resize(pixels, 0);
+    tiling.inside.resize(pixels, -1e30f);
+    tiling.away_x.resize(pixels);
+    tiling.away_y.resize(pixels);
+
+    const Vec2 corner { float(tiling.width - 1), float(tiling.height - 1) };
+    const std::size_t strips = std::size_t(tiling.height + kStrip - 1) / kStrip;
+    std::vector<std::vector<Vec2>> polygons(mesh.size());
+    std::vector<std::vector<Index>> of_strip(strips);
+    for (Index v = 0; v < mesh.size(); ++v) {
+        polygons[v] = piece_polygon(mesh, v);
+        float top = corner.y, bottom = 0.0f;
+        for (Vec2& p : polygons[v]) {
+            top = std::min(top, p.y);
+            bottom = std::max(bottom, p.y);
+            // The border's own pixels must lie inside the tiles at the border.
+            p.x += p.x <= 0 ? -1.0f : p.x >= corner.x ? 1.0f : 0.0f;
+            p.y += p.y <= 0 ? -1.0f : p.y >= corner.y ? 1.0f : 0.0f;
+        }
+        for (std::size_t s = std::size_t(std::max(0.0f, top - 2)) / kStrip;
+             s < strips && float(s * kStrip) <= bottom + 2; ++s)
+            of_strip[s].push_back(v);
+    }
+    run(parallel, strips, [&](std::size_t s) {
+        const int y0 = int(s) * kStrip, y1 = std::min(tiling.height, y0 + kStrip);
+        for (Index v : of_strip[s]) {
+            Vec2 low = polygons[v][0], high = low;
+            for (Vec2 p : polygons[v]) {
+                low = { std::min(low.x, p.x), std::min(low.y, p.y) };
+                high = { std::max(high.x, p.x), std::max(high.y, p.y) };
+            }
+            for (int y = std::max(y0, int(low.y) - 1); y < std::min(y1, int(high.y) + 2); ++y)
+                for (int x = std::max(0, int(low.x) - 1); x < std::min(tiling.width, int(high.x) + 2); ++x) {
+                    const Depth d = depth_of({ float(x), float(y) }, polygons[v], corner);
+                    const std::size_t at = std::size_t(y) * std::size_t(tiling.width) + std::size_t(x);
+                    if (d.inside > tiling.inside[at]) {
+                        tiling.tile[at] = v;
+                        tiling.inside[at] = d.inside;
+                        tiling.away_x[at] = d.x;
+                        tiling.away_y[at] = d.y;
+                    }
+                }
+        }
+    });
+    return tiling;
+}
+
+void lay_mosaic(const Tiling& tiling, Index tiles, const MosaicSettings& settings,
+                const std::vector<float>& grout_colors, const std::vector<float*>& channels)
+{
+    run(settings.parallel, channels.size(), [&](std::size_t c) {
+        float* samples = channels[c];
+        std::vector<double> sums(tiles, 0.0), counts(tiles, 0.0);
+        std::vector<float> joints(tiles, 0.0f);
+        for (std::size_t i = 0; i < tiling.tile.size(); ++i) {
+            const Index t = tiling.tile[i];
+            sums[t] += double(samples[i]);
+            counts[t] += 1.0;
+            joints[t] = std::max(joints[t], tiling.inside[i]);
+        }
+        // Half a joint's width; slivers keep two thirds of themselves.
+        for (float& joint : joints)
+            joint = std::min(0.5f * settings.grout, joint / 3.0f);
+        for (std::size_t i = 0; i < tiling.tile.size(); ++i) {
+            const Index t = tiling.tile[i];
+            const float mean = float(sums[t] / counts[t]), depth = tiling.inside[i] - joints[t];
+            float shade = mean;
+            if (settings.bevel > 0.0f && depth < settings.bevel) {
+                // The slope falls towards the joint; it is lit where it faces the upper left.
+                const float slope = std::clamp(1.0f - depth / settings.bevel, 0.0f, 1.0f);
+                const float facing = 0.7071f * (tiling.away_x[i] + tiling.away_y[i]);
+                shade = mean * (1.0f + 0.6f * settings.relief * slope * facing);
+            }
+            const float cover = settings.grout > 0.0f ? std::clamp(depth + 0.5f, 0.0f, 1.0f) : 1.0f;
+            samples[i] = grout_colors[c] + cover * (shade - grout_colors[c]);
+        }
+    });
+}
+
+}  // namespace pimg

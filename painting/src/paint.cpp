@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Strokes to pixels. The canvas is cut into tiles; every tile takes the strokes that touch it in order. In a tile
+// a stroke first finds, for each pixel, the nearest point of its middle line (how far along, how far across),
+// then looks up the brush there and blends.
+#include <pimg/paint.h>
+#include <pimg/detail/parallel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "sketch.h"
+
+namespace pimg {
+
+namespace {
+
+constexpr int kTile = 64;
+constexpr float kFar = 1e30f;
+
+/// Shares of the canvas showing through that count as a gap in a stroke, and as a hole.
+constexpr float kGap = 0.1f, kHole = 0.3f;
+
+/// Pixels [x0, x1) x [y0, y1).
+struct Box {
+    int x0, y0, x1, y1;
+    bool empty() const { return x0 >= x1 || y0 >= y1; }
+};
+
+Box around(Vec2 a, Vec2 b, float reach)
+{
+    return { int(std::ceil(std::min(a.x, b.x) - reach)), int(std::ceil(std::min(a.y, b.y) - reach)),
+             int(std::floor(std::max(a.x, b.x) + reach)) + 1, int(std::floor(std::max(a.y, b.y) + reach)) + 1 };
+}
+
+Box intersection(Box a, Box b)
+{
+    return { std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1) };
+}
+
+Box united(Box a, Box b)
+{
+    return { std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1) };
+}
+
+/// How far from the middle line paint may lie; half a pixel more than the brush for anti-aliasing, and
+/// the corners of square ends.
+float reach_of(const Stroke& stroke)
+{
+    return 0.7072f * stroke.width + 1.0f;
+}
+
+/// Keeps paint on its side of an edge.
+class EdgeStop {
+public:
+    EdgeStop(const Strokes& strokes, const PaintSettings& settings)
+        : m_picture(*settings.edges, settings.parallel),
+          m_least(kAcross * settings.crossing),
+          m_shades(stroke_colors(strokes, *settings.edges, *settings.edges, settings.parallel))
+    {
+        m_shades.resize(std::min(m_shades.size(), std::tuple_size<Shade>::value));
+    }
+
+    Shade shade(Index stroke) const
+    {
+        Shade shade {};
+        for (std::size_t c = 0; c < m_shades.size(); ++c)
+            shade[c] = m_shades[c][stroke];
+        return shade;
+    }
+
+    /// Share of a pixel paint of this shade may cover: 1 on its side of the edge, 1/2 half way across.
+    float share(const Shade& shade, int x, int y) const
+    {
+        const float off = m_picture.distance(m_picture.pixel(x, y), shade);
+        if (off <= 0.2f * m_least)
+            return 1.0f;
+        return std::clamp(0.5f + kSharpness * (0.5f - off / std::max(m_picture.contrast(x, y), m_least)), 0.0f, 1.0f);
+    }
+
+private:
+    static constexpr float kAcross = 2.5f;     ///< least difference, in crossings, that stops paint fully
+    static constexpr float kSharpness = 2.0f;  ///< makes up for the smoothing of the edges
+
+    ShadePicture m_picture;
+    float m_least;
+    std::vector<std::vector<float>> m_shades;
+};
+
+class TilePainter {
+public:
+    TilePainter(Box tile, const Brush& brush, const PaintSettings& settings, const EdgeStop* stop, Canvas& canvas)
+        : m_tile(tile),
+          m_brush(brush),
+          m_settings(settings),
+          m_stop(stop),
+          m_canvas(canvas)
+    {
+        std::fill(std::begin(m_distance), std::end(m_distance), kFar);
+        std::fill(std::begin(m_bare), std::end(m_bare), 1.0f);
+    }
+
+    void paint(const Strokes& strokes, Index i, const std::vector<std::vector<float>>& colors);
+
+    /// After all strokes: shows the ground where there is too little paint.
+    void fill_holes();
+
+private:
+    void measure(Vec2 a, Vec2 b, float start, bool first, bool last, Box box);
+    void look_up(const Stroke& stroke, float length, Box box);
+    void stop_at_edges(const Shade& shade, Box box);
+    void note_cover(Box box);
+    void blend(const std::vector<std::vector<float>>& colors, Index i, float brightness, float thickness, Box box);
+    int slot(int x, int y) const { return (y - m_tile.y0) * kTile + (x - m_tile.x0); }
+
+    Box m_tile;
+    const Brush& m_brush;
+    const PaintSettings& m_settings;
+    const EdgeStop* m_stop;
+    Canvas& m_canvas;
+    // Per pixel of the tile: squared distance from the middle line, and where beside it; then alpha and height.
+    float m_distance[kTile * kTile], m_along[kTile * kTile], m_across[kTile * kTile];
+    float m_bare[kTile * kTile];  ///< share of the canvas that opaque strokes would leave
+};
+
+/// Takes over the pixels nearer to segment a -> b than to any before; m_across keeps the square, with the side's sign. The
+/// first and last segment reach on beyond their ends.
+void TilePainter::measure(Vec2 a, Vec2 b, float start, bool first, bool last, Box box)
+{
+    const float dx = b.x - a.x, dy = b.y - a.y;
+    const float length = std::sqrt(dx * dx + dy * dy), inverse = 1.0f / std::max(length, 1e-6f);
+    const float tx = dx * inverse, ty = dy * inverse;
+    const float from = first ? -kFar : 0.0f, to = last ? kFar : length;
+    for (int y = box.y0; y < box.y1; ++y) {
+        const float py = float(y) - a.y;
+        const int row = slot(box.x0, y);
+        float *distance = m_distance + row, *along = m_along + row, *across = m_across + row;
+        for (int k = 0; k < box.x1 - box.x0; ++k) {
+            const float px = float(box.x0 + k) - a.x;
+            const float s = px * tx + py * ty, v = py * tx - px * ty;
+            const float on = std::min(std::max(s, from), to), off = s - on;
+            // Ends belong to the brush's outline: there the distance is measured square to the line.
+            const float d = v * v + off * off;
+            const bool nearer = d < distance[k];
+            distance[k] = nearer ? d : distance[k];
+            along[k] = nearer ? start + on : along[k];
+            across[k] = nearer ? std::copysign(d, v) : across[k];
+        }
+    }
+}
+
+/// Turns places beside the line into alpha (kept in m_along, and for the relief in m_distance, which stays kFar where there
+/// is no paint) and height (in m_across).
+void TilePainter::look_up(const Stroke& stroke, float length, Box box)
+{
+    const float half = 0.5f * stroke.width, total = length + stroke.width, per_width = 1.0f / stroke.width;
+    const Brush::Mask mask = m_brush.mask(stroke.width, stroke.variation);
+    // The ends keep their shape; only what is longer than two widths is stretched.
+    const float zone = m_brush.stretched() ? 0.25f * total : std::min(stroke.width, 0.25f * total);
+    const float per_zone = 0.25f / zone, per_middle = total > 2.0f * zone ? 0.5f / (total - 2.0f * zone) : 0.0f;
+    for (int y = box.y0; y < box.y1; ++y) {
+        const int row = slot(box.x0, y);
+        float *distance = m_distance + row, *along = m_along + row, *across = m_across + row;
+        for (int k = 0; k < box.x1 - box.x0; ++k) {
+            if (distance[k] >= kFar)
+                continue;
+            const float s = along[k] + half, v = std::copysign(std::sqrt(std::fabs(across[k])), across[k]);
+            const float inside = std::min(std::min(s, total - s), half - std::fabs(v)) + 0.5f;
+            if (inside <= 0.0f) {
+                distance[k] = kFar;
+                continue;
+            }
+            const float u = s < zone ? s * per_zone
+                : s <= total - zone  ? 0.25f + (s - zone) * per_middle
+                                     : 1.0f - (total - s) * per_zone;
+            const Paint paint = mask.at(u, v * per_width + 0.5f);
+            along[k] = paint.alpha * std::min(inside, 1.0f) * m_settings.opacity;
+            across[k] = paint.height;
+            distance[k] = along[k];
+        }
+    }
+}
+
+void TilePainter::stop_at_edges(const Shade& shade, Box box)
+{
+    for (int y = box.y0; y < box.y1; ++y) {
+        const int row = slot(box.x0, y);
+        for (int k = 0; k < box.x1 - box.x0; ++k)
+            if (m_distance[row + k] < kFar && m_along[row + k] > 0.0f) {
+                // The body of the paint reaches a little beyond: no pits along edges.
+                const float share = m_stop->share(shade, box.x0 + k, y);
+                m_along[row + k] *= share;
+                m_distance[row + k] *= 0.5f + 0.5f * share;
+            }
+    }
+}
+
+void TilePainter::blend(const std::vector<std::vector<float>>& colors, Index i, float brightness, float thickness,
+                        Box box)
+{
+    const float grain = m_brush.grain();
+    for (int y = box.y0; y < box.y1; ++y) {
+        const int row = slot(box.x0, y), columns = box.x1 - box.x0;
+        float* distance = m_distance + row;
+        const float *alpha = m_along + row, *height = m_across + row;
+        const std::size_t at = std::size_t(y) * std::size_t(m_canvas.width) + std::size_t(box.x0);
+        for (std::size_t c = 0; c < m_canvas.channels.size(); ++c) {
+            const float color = brightness * colors[c][i];
+            float* out = m_canvas.channels[c] + at;
+            for (int k = 0; k < columns; ++k) {
+                const float shade = color * (1.0f + grain * (height[k] - 0.5f));
+                const float mixed = out[k] + alpha[k] * (shade - out[k]);
+                out[k] = distance[k] < kFar ? mixed : out[k];
+            }
+        }
+        if (m_canvas.relief)
+            for (int k = 0; k < columns; ++k) {
+                float& out = m_canvas.relief[at + std::size_t(k)];
+                const float mixed = out + distance[k] * (thickness * height[k] - out);
+                out = distance[k] < kFar ? mixed : out;
+            }
+        std::fill(distance, distance + columns, kFar);
+    }
+}
+
+void TilePainter::note_cover(Box box)
+{
+    const float per_opacity = 1.0f / m_settings.opacity;
+    for (int y = box.y0; y < box.y1; ++y) {
+        const int row = slot(box.x0, y);
+        for (int k = 0; k < box.x1 - box.x0; ++k)
+            if (m_distance[row + k] < kFar)
+                m_bare[row + k] *= 1.0f - m_along[row + k] * per_opacity;
+    }
+}
+
+void TilePainter::fill_holes()
+{
+    for (int y = m_tile.y0; y < m_tile.y1; ++y)
+        for (int x = m_tile.x0; x < m_tile.x1; ++x) {
+            const float hole = (m_bare[slot(x, y)] - kGap) / (kHole - kGap);
+            if (hole <= 0.0f)
+                continue;
+            const float alpha = m_settings.opacity * std::min(hole, 1.0f);
+            const std::size_t at = std::size_t(y) * std::size_t(m_canvas.width) + std::size_t(x);
+            for (std::size_t c = 0; c < m_canvas.channels.size(); ++c)
+                m_canvas.channels[c][at] += alpha * (m_settings.ground->channels[c][at] - m_canvas.channels[c][at]);
+        }
+}
+
+void TilePainter::paint(const Strokes& strokes, Index i, const std::vector<std::vector<float>>& colors)
+{
+    const Stroke& stroke = strokes.strokes[i];
+    const Vec2* p = strokes.begin(stroke);
+    const float reach = reach_of(stroke), side = 0.5f * stroke.width + 1.0f;
+    Box touched { m_tile.x1, m_tile.y1, m_tile.x0, m_tile.y0 };
+    float length = 0.0f;
+    for (Index k = 0; k + 1 < stroke.count; ++k) {
+        const bool is_end = k == 0 || k + 2 == stroke.count;
+        const Box box = intersection(around(p[k], p[k + 1], is_end ? reach : side), m_tile);
+        if (!box.empty()) {
+            measure(p[k], p[k + 1], length, k == 0, k + 2 == stroke.count, box);
+            touched = united(touched, box);
+        }
+        length +=
+            std::sqrt((p[k + 1].x - p[k].x) * (p[k + 1].x - p[k].x) + (p[k + 1].y - p[k].y) * (p[k + 1].y - p[k].y));
+    }
+    if (touched.empty())
+        return;
+    look_up(stroke, length, touched);
+    if (m_stop)
+        stop_at_edges(m_stop->shade(i), touched);
+    if (m_settings.ground)
+        note_cover(touched);
+    const float brightness = 1.0f + m_settings.jitter_color * signed_unit(scramble(stroke.variation + 3));
+    blend(colors, i, brightness, 0.6f * std::sqrt(stroke.width), touched);
+}
+
+}  // namespace
+
+void paint_strokes(const Strokes& strokes, const std::vector<std::vector<float>>& colors, const Brush& brush,
+                   const PaintSettings& settings, Canvas& canvas)
+{
+    if (brush.empty() || settings.opacity <= 0.0f)
+        return;
+    const int columns = (canvas.width + kTile - 1) / kTile, rows = (canvas.height + kTile - 1) / kTile;
+    std::vector<std::vector<Index>> of_tile(std::size_t(columns) * std::size_t(rows));
+    for (Index i = 0; i < Index(strokes.strokes.size()); ++i) {
+        const Stroke& stroke = strokes.strokes[i];
+        const Vec2* p = strokes.begin(stroke);
+        Box box = around(p[0], p[1], reach_of(stroke));
+        for (Index k = 1; k + 1 < stroke.count; ++k)
+            box = united(box, around(p[k], p[k + 1], reach_of(stroke)));
+        box = intersection(box, { 0, 0, canvas.width, canvas.height });
+        for (int y = box.y0 / kTile; !box.empty() && y <= (box.y1 - 1) / kTile; ++y)
+            for (int x = box.x0 / kTile; x <= (box.x1 - 1) / kTile; ++x)
+                of_tile[std::size_t(y) * std::size_t(columns) + std::size_t(x)].push_back(i);
+    }
+    std::optional<EdgeStop> stop;
+    if (settings.edges)
+        stop.emplace(strokes, settings);
+    run(settings.parallel, of_tile.size(), [&](std::size_t t) {
+        const int x = int(t % std::size_t(columns)) * kTile, y = int(t / std::size_t(columns)) * kTile;
+        const Box tile { x, y, std::min(x + kTile, canvas.width), std::min(y + kTile, canvas.height) };
+        TilePainter painter(tile, brush, settings, stop ? &*stop : nullptr, canvas);
+        for (Index i : of_tile[t])
+            painter.paint(strokes, i, colors);
+        if (settings.ground)
+            painter.fill_holes();
+    });
+}
+
+void light_relief(Canvas& canvas, float strength, const ParallelFor& parallel)
+{
+    if (!canvas.relief || strength <= 0.0f)
+        return;
+    constexpr int kRows = 32;
+    const int w = canvas.width, h = canvas.height;
+    run(parallel, std::size_t(h + kRows - 1) / kRows, [&](std::size_t block) {
+        for (int y = int(block) * kRows; y < std::min(h, int(block + 1) * kRows); ++y) {
+            const float* here = canvas.relief + std::size_t(y) * std::size_t(w);
+            const float *above = y > 0 ? here - w : here, *below = y + 1 < h ? here + w : here;
+            for (int x = 0; x < w; ++x) {
+                const float gx = 0.5f * (here[std::min(x + 1, w - 1)] - here[std::max(x - 1, 0)]);
+                const float gy = 0.5f * (below[x] - above[x]);
+                const float slope = 0.7071f * (gx + gy);  // rising away from the light: lit
+                const float light = 1.0f + 0.5f * strength * slope / std::sqrt(0.25f + slope * slope);
+                const std::size_t at = std::size_t(y) * std::size_t(w) + std::size_t(x);
+                for (float* channel : canvas.channels)
+                    channel[at] *= light;
+            }
+        }
+    });
+}
+
+}  // namespace pimg

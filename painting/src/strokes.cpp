@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Plans a painting: dabs in coarse-to-fine order are bent along the edges, fitted between them, and kept when they
+// bring the canvas closer to the picture.
+#include <pimg/strokes.h>
+#include <pimg/detail/parallel.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sketch.h"
+
+namespace pimg {
+
+namespace {
+
+constexpr int kMostPoints = 24;
+
+/// A stroke is at least this many widths long, ends included, where nothing stops it, and at most that many.
+constexpr float kShortest = 2.0f, kLongest = 8.0f;
+
+/// What a cell without paint counts as, in 8-bit units off: more than any shade is worth, less than black for white.
+constexpr float kBare = 64.0f;
+
+/// Pixels after which an edge has reached its other side, in the smoothed picture.
+constexpr float kEdgeWidth = 2.0f;
+
+/// Distance of places, in widths.
+constexpr float kPitch = 0.5f;
+
+/// A stroke being drawn.
+struct Draft {
+    Vec2 points[2 * kMostPoints + 1];
+    int first = kMostPoints, last = kMostPoints;  ///< of `points`, both in use
+    float width = 0.0f;
+    Shade shade {};
+    std::uint32_t variation = 0;
+
+    const Vec2* begin() const { return points + first; }
+    int size() const { return last - first + 1; }
+};
+
+class Planner {
+public:
+    Planner(const ShadePicture& picture, const DirectionField& field, const StrokeOptions& options)
+        : m_picture(picture),
+          m_field(field),
+          m_options(options)
+    {
+    }
+
+    /// A stroke of about that width and length.
+    Draft draft(Vec2 place, float width, float length, std::uint32_t variation) const;
+
+private:
+    void fit_between_edges(Draft& draft, Vec2 along, float min) const;
+    void walk(Draft& draft, Vec2 along, float reach, int sign) const;
+    bool is_same(Vec2 p, const Shade& shade) const
+    {
+        return m_picture.distance(m_picture.at(p), shade) <= m_options.crossing;
+    }
+
+    const ShadePicture& m_picture;
+    const DirectionField& m_field;
+    const StrokeOptions& m_options;
+};
+
+/// Where an edge cuts into the width, moves the stroke to its own side and makes it as narrow as it has to be.
+void Planner::fit_between_edges(Draft& draft, Vec2 along, float min) const
+{
+    Vec2& centre = draft.points[kMostPoints];
+    const Vec2 across { -along.y, along.x };
+    const float half = 0.5f * draft.width, step = std::max(0.75f, 0.125f * draft.width);
+    const auto off = [&](float v) {
+        return m_picture.distance(m_picture.between({ centre.x + v * across.x, centre.y + v * across.y }), draft.shade);
+    };
+    float free[2];
+    for (int side = 0; side < 2; ++side) {
+        const float sign = side ? 1.0f : -1.0f;
+        float reached = 0.0f, before = 0.0f;
+        while (reached < half) {
+            const float next = std::min(reached + step, half), here = off(sign * next);
+            if (here > m_options.crossing) {
+                // The edge is where half of the difference between its sides is reached.
+                const float level = std::max(m_options.crossing, 0.5f * off(sign * (next + kEdgeWidth)));
+                reached += step * std::min(1.0f, (level - before) / std::max(here - before, 1e-3f));
+                break;
+            }
+            reached = next;
+            before = here;
+        }
+        free[side] = std::min(reached, half);
+    }
+    const float room = free[0] + free[1];
+    if (room >= draft.width)
+        return;
+    draft.width = std::max(room, min);
+    // The rim on the side of the edge stays where it is found; half the missing room goes to either side.
+    const float shift = 0.5f * (free[1] - free[0]);
+    centre = { centre.x + shift * across.x, centre.y + shift * across.y };
+}
+
+/// Follows the directions from the middle to one end.
+void Planner::walk(Draft& draft, Vec2 along, float reach, int sign) const
+{
+    const float wanted = std::max(1.0f, 0.4f * draft.width);
+    const int steps = std::min(kMostPoints, int(std::ceil(reach / wanted)));
+    if (steps == 0)
+        return;
+    const float step = reach / float(steps), tip = 0.5f * draft.width;
+    Vec2 p = draft.points[kMostPoints], d { float(sign) * along.x, float(sign) * along.y };
+    for (int i = 0; i < steps; ++i) {
+        Vec2 turn = m_field.at({ p.x + 0.5f * step * d.x, p.y + 0.5f * step * d.y });
+        float cosine = turn.x * d.x + turn.y * d.y;
+        if (cosine < 0.0f) {
+            turn = { -turn.x, -turn.y };
+            cosine = -cosine;
+        }
+        if (i == 0)
+            turn = d;  // a jittered stroke starts as it was turned
+        else if (cosine < 0.7f)
+            break;
+        const Vec2 q { p.x + step * turn.x, p.y + step * turn.y };
+        if (!is_same(q, draft.shade) || !is_same({ q.x + tip * turn.x, q.y + tip * turn.y }, draft.shade) || q.x < 0.0f
+            || q.y < 0.0f || q.x > float(m_picture.width() - 1) || q.y > float(m_picture.height() - 1))
+            break;
+        p = q;
+        d = turn;
+        draft.points[sign > 0 ? ++draft.last : --draft.first] = p;
+    }
+}
+
+Draft Planner::draft(Vec2 place, float width, float length, std::uint32_t variation) const
+{
+    Draft draft;
+    draft.variation = variation;
+    const float scale = m_options.scale(place, m_picture.width(), m_picture.height());
+    const float min = m_options.min * scale, max = m_options.max * scale;
+    const float resized = width * (1.0f + m_options.jitter_size * signed_unit(scramble(draft.variation + 1)));
+    draft.width = std::clamp(resized, min, max);
+    draft.points[kMostPoints] = place;
+    draft.shade = m_picture.at(place);
+    fit_between_edges(draft, m_field.at(place), min);
+
+    const Vec2 centre = draft.points[kMostPoints];
+    Vec2 along = m_field.at(centre);
+    const float turn = 0.785398f * m_options.jitter_angle * signed_unit(scramble(draft.variation + 2));
+    const float c = std::cos(turn), s = std::sin(turn);
+    along = { c * along.x - s * along.y, s * along.x + c * along.y };
+    draft.shade = m_picture.at(centre);
+    length = std::clamp(m_options.length * length, kShortest * draft.width,
+                        std::max(1.0f, m_options.length) * kLongest * draft.width);
+    walk(draft, along, 0.5f * (length - draft.width), -1);
+    walk(draft, along, 0.5f * (length - draft.width), +1);
+    if (draft.size() == 1)
+        draft.points[++draft.last] = { centre.x + 0.25f * along.x, centre.y + 0.25f * along.y };
+    return draft;
+}
+
+/// Brushes come in sizes, half an octave apart; and of one size there is one stroke to a place. So the next frame of a
+/// film, whose noise makes another mesh, finds most strokes where they were.
+struct Site {
+    std::uint64_t key;  ///< size, large first, then chance: the order of painting
+    Index dab;
+    float width;
+    Vec2 centre;
+};
+
+Site site_of(const Dab& dab, Index index, const ShadePicture& picture, const StrokeOptions& options)
+{
+    const float scale = options.scale(dab.centre, picture.width(), picture.height());
+    const float min = options.min * scale, max = options.max * scale;
+    const int size = int(std::lround(2.0f * std::log2(dab.width / min)));
+    Site site { 0, index, std::clamp(min * std::exp2(0.5f * float(size)), min, max), dab.centre };
+    const float pitch = kPitch * site.width;
+    const int x = int(std::lround(dab.centre.x / pitch)), y = int(std::lround(dab.centre.y / pitch));
+    const std::uint32_t chance = scramble(
+        std::uint32_t(x) + scramble(std::uint32_t(y) + scramble(std::uint32_t(size) + scramble(options.seed))));
+    const Vec2 place { pitch * (float(x) + 0.3f * signed_unit(scramble(chance + 4))),
+                       pitch * (float(y) + 0.3f * signed_unit(scramble(chance + 5))) };
+    // Next to an edge the mesh knows the place better.
+    if (picture.distance(picture.at(place), picture.at(dab.centre)) < 0.4f * options.crossing)
+        site.centre = place;
+    const int bin = std::clamp(int(4.0f * (20.0f - std::log2(site.width))), 0, 255);
+    site.key = (std::uint64_t(bin) << 32) + chance;
+    return site;
+}
+
+std::vector<Site> settle(const std::vector<Dab>& dabs, const ShadePicture& picture, const StrokeOptions& options)
+{
+    std::vector<Site> sites;
+    sites.reserve(dabs.size());
+    for (Index i = 0; i < Index(dabs.size()); ++i)
+        sites.push_back(site_of(dabs[i], i, picture, options));
+    std::sort(sites.begin(), sites.end(),
+              [](const Site& a, const Site& b) { return a.key != b.key ? a.key < b.key : a.dab < b.dab; });
+    return sites;
+}
+
+void append(const Draft& draft, Index vertex, Level level, Strokes& strokes)
+{
+    strokes.strokes.push_back(
+        { Index(strokes.points.size()), Index(draft.size()), draft.width, vertex, level, draft.variation });
+    strokes.points.insert(strokes.points.end(), draft.begin(), draft.begin() + draft.size());
+}
+
+}  // namespace
+
+Status plan_strokes(const Hierarchy& hierarchy, const Planes& guides, const DirectionField& field,
+                    const StrokeOptions& options, Strokes& strokes)
+{
+    std::vector<Dab> dabs;
+    const Status status = collect_dabs(hierarchy, field, options, dabs);
+    if (!status)
+        return status;
+    const ShadePicture picture(guides, options.parallel);
+    Sketch sketch(picture, std::max(1, int(0.67f * options.min + 0.5f)));
+    const Planner planner(picture, field, options);
+
+    Strokes laid;
+    for (const Site& site : settle(dabs, picture, options)) {
+        const Draft draft = planner.draft(site.centre, site.width, dabs[site.dab].length, std::uint32_t(site.key));
+        const float gain = sketch.gain(draft.begin(), draft.size(), draft.width, draft.shade, kBare);
+        if (options.tolerance > 0.0f && gain < options.tolerance)
+            continue;
+        sketch.put(draft.begin(), draft.size(), draft.width, draft.shade);
+        append(draft, dabs[site.dab].vertex, dabs[site.dab].level, laid);
+    }
+
+    // What is still bare is covered from below, so that these strokes show in the gaps only.
+    strokes = {};
+    strokes.width = guides.width;
+    strokes.height = guides.height;
+    const float width = std::min(options.max, 2.0f * options.min);
+    for (Vec2 place : sketch.bare_cells()) {
+        if (sketch.is_covered(place))
+            continue;
+        const Draft draft = planner.draft(place, width, 3.0f * width, scramble(Index(strokes.strokes.size())));
+        sketch.put_below(draft.begin(), draft.size(), draft.width, draft.shade);
+        append(draft, kGhost, 0, strokes);
+    }
+    const Index shift = Index(strokes.points.size());
+    for (Stroke s : laid.strokes) {
+        s.first += shift;
+        strokes.strokes.push_back(s);
+    }
+    strokes.points.insert(strokes.points.end(), laid.points.begin(), laid.points.end());
+    return {};
+}
+
+std::vector<std::vector<float>> stroke_colors(const Strokes& strokes, const Planes& picture, const Planes& guides,
+                                              const ParallelFor& parallel)
+{
+    constexpr std::size_t kBlock = 1024;
+    constexpr float kAlike = 16.0f;  // units; nearer colours count as the same paint
+    const std::size_t n = strokes.strokes.size();
+    std::vector<std::vector<float>> colors(picture.channels.size(), std::vector<float>(n));
+    const auto pixel = [&](Vec2 p) {
+        const int x = std::clamp(int(p.x + 0.5f), 0, picture.width - 1);
+        const int y = std::clamp(int(p.y + 0.5f), 0, picture.height - 1);
+        return std::size_t(y) * std::size_t(picture.width) + std::size_t(x);
+    };
+    run(parallel, (n + kBlock - 1) / kBlock, [&](std::size_t block) {
+        std::vector<double> sums(picture.channels.size());
+        for (std::size_t i = block * kBlock; i < std::min(n, (block + 1) * kBlock); ++i) {
+            const Stroke& stroke = strokes.strokes[i];
+            const Vec2* points = strokes.begin(stroke);
+            const std::size_t centre = pixel(points[stroke.count / 2]);
+            std::fill(sums.begin(), sums.end(), 0.0);
+            double total = 0.0;
+            for (Index k = 0; k < stroke.count; ++k) {
+                const Vec2 p = points[k], next = points[k + 1 < stroke.count ? k + 1 : k - 1];
+                const float dx = next.x - p.x, dy = next.y - p.y;
+                const float side = 0.25f * stroke.width / std::max(std::sqrt(dx * dx + dy * dy), 1e-6f);
+                for (int j = -1; j <= 1; ++j) {
+                    const std::size_t at = pixel({ p.x - float(j) * side * dy, p.y + float(j) * side * dx });
+                    float off = 0.0f;
+                    for (const float* guide : guides.channels)
+                        off += (guide[at] - guide[centre]) * (guide[at] - guide[centre]);
+                    const double weight = 1.0 / (1.0 + double(off / (kAlike * kAlike)));
+                    total += weight;
+                    for (std::size_t c = 0; c < sums.size(); ++c)
+                        sums[c] += weight * double(picture.channels[c][at]);
+                }
+            }
+            for (std::size_t c = 0; c < sums.size(); ++c)
+                colors[c][i] = float(sums[c] / total);
+        }
+    });
+    return colors;
+}
+
+}  // namespace pimg

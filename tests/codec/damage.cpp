@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Damaged files: every truncation of six small ones, every single bit flipped, random damage with the checksums off. Nothing
+// to check but that each ends in an error or a picture: meant to be run with AddressSanitizer and
+// UndefinedBehaviorSanitizer, and within a time limit. Usage: codec_damage [rounds of random damage, default 2000]
+#include <cstdio>
+#include <cstdlib>
+
+#include <pimg/codec.h>
+#include <pimg/sampling.h>
+#include <pimg/simplify.h>
+
+#include "codec/codec_pictures.h"
+
+namespace {
+
+using namespace pimg;
+using namespace pimg_test;
+
+struct Outcome {
+    long pictures = 0, errors = 0, silent = 0;
+};
+
+/// Reads all there is to read; `original` are the right pixels.
+void try_file(const std::uint8_t* data, std::size_t size, bool check_crc, const Picture& original, Outcome& outcome)
+{
+    // A copy of exactly this size, so that the sanitizer sees the first byte too many.
+    const std::vector<std::uint8_t> exact(data, data + size);
+    DecodeLimits limits;
+    limits.pixels = 1 << 16;
+    limits.channels = 64;
+    limits.check_crc = check_crc;
+    Decoder decoder;
+    if (!decoder.open(memory_source(exact.data(), size), limits)) {
+        ++outcome.errors;
+        return;
+    }
+    std::vector<std::uint8_t> pixels(decoder.desc().pixel_bytes() * decoder.desc().pixels());
+    const std::vector<Plane> planes = interleaved(decoder.desc(), (void*)pixels.data());
+    ReadInfo info;
+    const Status status = decoder.read(planes, &info);
+    if (status && decoder.has_hierarchy()) {
+        Hierarchy h;
+        std::vector<Bands> bands;
+        const std::size_t n = std::size_t(std::max(2u, decoder.desc().data.width)) * std::max(2u, decoder.desc().data.height);
+        const std::vector<float> guide(n, 1.0f);
+        decoder.read_hierarchy(interleaved(decoder.desc(), (const void*)pixels.data()), { guide.data() }, h, bands);
+    }
+    ++(status ? outcome.pictures : outcome.errors);
+    // A whole file whose samples are wrong without a word is the one thing that must not be.
+    if (status && info.exact && check_crc && pixels != original.pixels)
+        ++outcome.silent;
+}
+
+/// Built from a third of the pixels.
+Hierarchy hierarchy_of_chosen(const Picture& picture)
+{
+    std::vector<float> samples;
+    for (std::size_t i = 0; i < picture.pixels.size(); i += 3)
+        samples.push_back(picture.pixels[i]);
+    const Guide guide { int(picture.desc.data.width), int(picture.desc.data.height), { { samples.data(), 1.0f } } };
+    InitialMesh initial;
+    Hierarchy hierarchy;
+    std::vector<Bands> bands;
+    SimplifyOptions options;
+    options.initial = &initial;
+    if (!sample(guide, {}, initial) || !simplify(guide, options, hierarchy, bands))
+        std::abort();
+    return hierarchy;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    const long rounds = argc > 1 ? std::atol(argv[1]) : 2000;
+    std::vector<std::vector<std::uint8_t>> files;
+    std::vector<Picture> pictures = conformance_pictures();
+    pictures.push_back(pictures[2]);  // once more, with a hierarchy of chosen pixels
+    const Hierarchy chosen = hierarchy_of_chosen(pictures[2]);
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        EncodeOptions options;
+        options.profile = i % 2 == 0 ? Profile::full : Profile::compact;
+        if (i == 5) {
+            options.profile = Profile::full;
+            options.hierarchy = &chosen;
+        }
+        options.vertices = 0.1f;
+        options.tile = 32;
+        files.emplace_back();
+        if (const Status status = encode(pictures[i].desc, pictures[i].planes(), options, files.back()); !status) {
+            std::fprintf(stderr, "%s\n", status.error().c_str());
+            return 1;
+        }
+    }
+    Outcome cut, flipped, random;
+    for (std::size_t i = 0; i < files.size(); ++i)
+        for (std::size_t n = 0; n <= files[i].size(); ++n)
+            try_file(files[i].data(), n, true, pictures[i], cut);
+    for (std::size_t bit = 0; bit < files[4].size() * 8; ++bit) {
+        std::vector<std::uint8_t> file = files[4];
+        file[bit / 8] = std::uint8_t(file[bit / 8] ^ (1u << (bit % 8)));
+        try_file(file.data(), file.size(), true, pictures[4], flipped);
+    }
+    std::uint32_t seed = 12345;
+    for (long round = 0; round < rounds; ++round) {
+        const std::size_t i = noise(seed) % files.size();
+        std::vector<std::uint8_t> file = files[i];
+        for (std::uint32_t k = 1 + noise(seed) % 4; k > 0; --k)
+            file[noise(seed) % file.size()] = std::uint8_t(noise(seed) & 1 ? noise(seed) : 1u << (noise(seed) % 8));
+        try_file(file.data(), file.size(), false, pictures[i], random);
+    }
+    for (const auto& [name, o] : { std::pair<const char*, Outcome>("truncated", cut), { "one bit flipped", flipped },
+                                   { "random, checksums off", random } })
+        std::printf("%-24s %6ld pictures %6ld errors %ld silent\n", name, o.pictures, o.errors, o.silent);
+    return cut.silent + flipped.silent > 0;
+}
