@@ -11,6 +11,8 @@
 #include <vector>
 
 #include <OpenImageIO/strutil.h>
+
+#include <pimg/detail/format.h>
 #include <pimg/filter_table.h>
 
 extern "C" {
@@ -101,7 +103,7 @@ std::string text_of(const GValue* value)
     if (G_VALUE_HOLDS_INT(value))
         return std::to_string(g_value_get_int(value));
     if (G_VALUE_HOLDS_DOUBLE(value))
-        return OIIO::Strutil::fmt::format("{}", g_value_get_double(value));
+        return pimg::format("{}", g_value_get_double(value));
     const char* text = g_value_get_string(value);
     return text != nullptr ? text : "";
 }

@@ -9,6 +9,8 @@
 #include <OpenImageIO/fmath.h>
 #include <OpenImageIO/strutil.h>
 
+#include <pimg/detail/format.h>
+
 #include "pimg_pvt.h"
 
 namespace pimg {
@@ -55,7 +57,7 @@ std::string type_word(TypeDesc type)
     const std::string word = has_name(type) ? type.c_str() : "";
     if (!word.empty() && TypeDesc(word) == type)
         return word;
-    return OIIO::Strutil::fmt::format("{}:{}:{}[{}]", TypeDesc(TypeDesc::BASETYPE(type.basetype)).c_str(),
+    return pimg::format("{}:{}:{}[{}]", TypeDesc(TypeDesc::BASETYPE(type.basetype)).c_str(),
                                       int(type.aggregate), int(type.vecsemantics), type.arraylen);
 }
 
@@ -276,7 +278,7 @@ std::string hint_text(const ParamValue& hint)
     // Not get_float(): OpenImageIO 2.4 returns its default for an int.
     switch (hint.type().basetype) {
     case TypeDesc::STRING: return hint.get_string();
-    case TypeDesc::FLOAT: return OIIO::Strutil::fmt::format("{:.9g}", hint.get<float>());
+    case TypeDesc::FLOAT: return pimg::format("{:.9g}", hint.get<float>());
     case TypeDesc::INT: return std::to_string(hint.get<int>());
     default: return hint.get_string();
     }

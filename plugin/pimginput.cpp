@@ -8,6 +8,8 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
+#include <pimg/detail/format.h>
+
 namespace pimg {
 namespace io {
 
@@ -69,12 +71,12 @@ bool PimgInput::open(const std::string& name, ImageSpec& spec, const ImageSpec& 
         // First whether the file is one of ours: OpenImageIO shows every reader files of unknown formats.
         const Status status = open_decoder(ioproxy(), m_decoder);
         if (!status)
-            return fail(OIIO::Strutil::fmt::format("\"{}\": {}", name, status.error()));
+            return fail(pimg::format("\"{}\": {}", name, status.error()));
         std::string error;
         if (!m_request.parse(name, config, error))
-            return fail(OIIO::Strutil::fmt::format("\"{}\": {}", name, error));
+            return fail(pimg::format("\"{}\": {}", name, error));
         if (!announce_levels(error))
-            return fail(OIIO::Strutil::fmt::format("\"{}\": {}", name, error));
+            return fail(pimg::format("\"{}\": {}", name, error));
         m_spec = m_levels[0];
         spec = m_spec;
         return true;

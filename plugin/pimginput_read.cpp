@@ -8,6 +8,7 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 
+#include <pimg/detail/format.h>
 #include <pimg/detail/parallel.h>
 #include <pimg/threads.h>
 
@@ -29,11 +30,11 @@ bool PimgInput::is_whole()
         std::vector<ChunkInfo> chunks;
         const Status status = m_decoder.chunks(chunks);
         if (!status)
-            return fail(OIIO::Strutil::fmt::format("\"{}\": {}", m_name, status.error()));
+            return fail(pimg::format("\"{}\": {}", m_name, status.error()));
         m_whole = !chunks.empty() && !std::strcmp(chunks.back().type, "DONE") ? Whole::yes : Whole::no;
     }
     if (m_whole == Whole::no)
-        return fail(OIIO::Strutil::fmt::format(
+        return fail(pimg::format(
             "\"{}\": the file ends early; its beginning can be read as a coarser picture with partial=1", m_name));
     return true;
 }
@@ -55,7 +56,7 @@ bool PimgInput::decode(const Request& request)
             failure = status;
         }
     });
-    return failure.ok() || fail(OIIO::Strutil::fmt::format("\"{}\": {}", m_name, failure.error()));
+    return failure.ok() || fail(pimg::format("\"{}\": {}", m_name, failure.error()));
 }
 
 /// One plane per channel over the request's memory; those outside its range are not wanted.
@@ -199,7 +200,7 @@ std::shared_ptr<const ImageBuf> PimgInput::make(int miplevel)
         m_failure = progressive.error();
     else if (!m_request.run(*level, progressive, threads()))
         m_failure = level->geterror();
-    m_failure = m_failure.empty() ? "" : OIIO::Strutil::fmt::format("\"{}\": {}", m_name, m_failure);
+    m_failure = m_failure.empty() ? "" : pimg::format("\"{}\": {}", m_name, m_failure);
     return m_failure.empty() ? level : nullptr;
 }
 
@@ -226,7 +227,7 @@ bool PimgInput::get_thumbnail(ImageBuf& thumbnail, int subimage)
         const Status status = m_decoder.read_preview(std::uint32_t(spec.width), std::uint32_t(spec.height),
                                                      planes(m_stored, all), std::min(1.0, enough / vertices));
         if (!status)
-            return fail(OIIO::Strutil::fmt::format("\"{}\": {}", m_name, status.error()));
+            return fail(pimg::format("\"{}\": {}", m_name, status.error()));
         thumbnail.reset(spec);
         for (int c = 0; c < spec.nchannels; ++c)
             thumbnail.set_pixels(ROI(0, spec.width, 0, spec.height, 0, 1, c, c + 1), m_stored.channelformat(c),

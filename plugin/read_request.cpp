@@ -5,6 +5,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
+#include <pimg/detail/format.h>
 #include <pimg/colour.h>
 #include <pimg/display.h>
 #include <pimg/imagebufalgo.h>
@@ -19,7 +20,7 @@ namespace {
 
 using OIIO::ImageBuf;
 using OIIO::ImageSpec;
-using OIIO::Strutil::fmt::format;
+using pimg::format;
 
 bool has_key(const std::vector<std::string>& keys, const std::string& key)
 {

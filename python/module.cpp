@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The module pimg._pimg. Functions take their keywords from the option tables: nothing here lists options.
 #include <OpenImageIO/imageio.h>
+
+#include <pimg/detail/format.h>
 #include <pimg/display.h>
 #include <pimg/version.h>
 
@@ -82,7 +84,7 @@ void add_progressive(py::class_<Progressive>& type)
         "memory", [](const Progressive& self) { return self.image.memory(); }, "bytes held, caches included");
     type.def("__repr__", [](const Progressive& self) {
         const OIIO::ImageSpec& spec = self.image.spec();
-        return OIIO::Strutil::fmt::format("<pimg.ProgressiveImage {} x {} {}, {} splits>", spec.width, spec.height,
+        return pimg::format("<pimg.ProgressiveImage {} x {} {}, {} splits>", spec.width, spec.height,
                                           OIIO::Strutil::join(spec.channelnames, ","), self.image.hierarchy().levels());
     });
 }

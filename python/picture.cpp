@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "picture.h"
 
+#include <pimg/detail/format.h>
+
 #include <utility>
 #include <vector>
 
@@ -12,7 +14,7 @@ namespace {
 using OIIO::ImageBuf;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
-using OIIO::Strutil::fmt::format;
+using pimg::format;
 
 struct SampleType {
     char kind;  ///< as in NumPy's dtype

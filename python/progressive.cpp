@@ -8,6 +8,8 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/strutil.h>
+
+#include <pimg/detail/format.h>
 #include <pimg/display.h>
 #include <pimg/imagebufalgo.h>
 
@@ -20,7 +22,7 @@ namespace {
 
 using OIIO::ImageBuf;
 using OIIO::ImageSpec;
-using OIIO::Strutil::fmt::format;
+using pimg::format;
 
 [[noreturn]] void raise(PyObject* type, const std::string& message)
 {

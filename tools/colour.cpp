@@ -6,6 +6,8 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
+
+#include <pimg/detail/format.h>
 #include <pimg/colour.h>
 
 namespace pimgtool {
@@ -25,7 +27,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name)
 bool use_colour_config(const std::string& filename, std::string& error)
 {
     if (!OIIO::Filesystem::is_regular(filename) && !Strutil::istarts_with(filename, "ocio://")) {
-        error = Strutil::fmt::format("cannot read \"{}\": no such file", filename);
+        error = pimg::format("cannot read \"{}\": no such file", filename);
         return false;
     }
     setenv("OCIO", filename.c_str(), 1);
@@ -36,7 +38,7 @@ bool set_context_variable(const std::string& assignment, std::string& error)
 {
     const std::size_t equals = assignment.find('=');
     if (equals == 0 || equals == std::string::npos) {
-        error = Strutil::fmt::format("\"{}\": expected KEY=VALUE", assignment);
+        error = pimg::format("\"{}\": expected KEY=VALUE", assignment);
         return false;
     }
     setenv(assignment.substr(0, equals).c_str(), assignment.c_str() + equals + 1, 1);
@@ -61,7 +63,7 @@ bool is_known_space(const std::string& name, std::string& error)
     const std::vector<std::string> names = colour_config().getColorSpaceNames();
     if (contains(names, name) || contains(colour_config().getRoles(), name))
         return true;
-    error = Strutil::fmt::format("no colour space \"{}\": expected one of {}", name, Strutil::join(names, ", "));
+    error = pimg::format("no colour space \"{}\": expected one of {}", name, Strutil::join(names, ", "));
     return false;
 }
 
@@ -80,7 +82,7 @@ OIIO::ColorProcessorHandle conversion(const std::string& from, const std::string
     OIIO::ColorProcessorHandle processor =
         colour_config().createColorProcessor(from, to, options.key, options.value);
     if (!processor)
-        error = Strutil::fmt::format("no conversion from \"{}\" to \"{}\": expected colour spaces of {}: {}", from, to,
+        error = pimg::format("no conversion from \"{}\" to \"{}\": expected colour spaces of {}: {}", from, to,
                                      colour_config().getNumDisplays() ? "the configuration $OCIO"
                                                                       : "OpenImageIO ($OCIO names no configuration)",
                                      Strutil::join(colour_config().getColorSpaceNames(), ", "));
@@ -99,7 +101,7 @@ bool find_display(std::string& display, std::string& view, std::string& error)
     if (display == "default")
         display = config.getDefaultDisplayName();
     if (!contains(displays, display)) {
-        error = Strutil::fmt::format("no display \"{}\": expected one of {}", display, Strutil::join(displays, ", "));
+        error = pimg::format("no display \"{}\": expected one of {}", display, Strutil::join(displays, ", "));
         return false;
     }
     const std::vector<std::string> views = config.getViewNames(display);
@@ -107,7 +109,7 @@ bool find_display(std::string& display, std::string& view, std::string& error)
         view = config.getDefaultViewName(display);
     if (contains(views, view))
         return true;
-    error = Strutil::fmt::format("no view \"{}\": expected one of {}", view, Strutil::join(views, ", "));
+    error = pimg::format("no view \"{}\": expected one of {}", view, Strutil::join(views, ", "));
     return false;
 }
 

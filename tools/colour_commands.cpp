@@ -6,6 +6,8 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 
+#include <pimg/detail/format.h>
+
 #include "colour.h"
 #include "rows.h"
 
@@ -55,7 +57,7 @@ namespace {
 
 using OIIO::ImageBuf;
 using OIIO::ImageSpec;
-using OIIO::Strutil::fmt::format;
+using pimg::format;
 
 /// Converts the colours of the top picture, in floating point, so that nothing is rounded before the file is written.
 /// Only colour and alpha are shown to OpenImageIO: 2.4 changes the channels after them, too.
@@ -73,7 +75,7 @@ bool convert_colours(Session& session, const OIIO::ColorProcessorHandle& process
         const ImageBuf some = OIIO::ImageBufAlgo::channels(dst, int(colours.size()), colours);
         ImageBuf converted = OIIO::ImageBufAlgo::colorconvert(some, processor.get(), unpremult);
         if (converted.has_error()) {
-            dst.errorfmt("{}", converted.geterror());
+            pimg::set_error(dst, converted.geterror());
             return false;
         }
         return OIIO::ImageBufAlgo::paste(dst, dst.xbegin(), dst.ybegin(), dst.zbegin(), 0, converted);

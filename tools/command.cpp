@@ -10,11 +10,13 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
+#include <pimg/detail/format.h>
+
 namespace pimgtool {
 
 namespace {
 
-using OIIO::Strutil::fmt::format;
+using pimg::format;
 
 /// Number of letters to change, add or drop to get from one word to the other.
 std::size_t distance(const std::string& a, const std::string& b)

@@ -6,6 +6,8 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
+#include <pimg/detail/format.h>
+
 #include "output.h"
 #include "pimg_file.h"
 #include "rows.h"
@@ -14,7 +16,7 @@ namespace pimgtool {
 
 namespace {
 
-using OIIO::Strutil::fmt::format;
+using pimg::format;
 
 /// -o:profile=compact a.pimg, or the same as -o a.pimg:profile=compact. A file keeps the hierarchy unless told otherwise.
 bool output_file(const Call& call, Program& program, std::string& error)

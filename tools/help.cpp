@@ -5,6 +5,8 @@
 
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
+
+#include <pimg/detail/format.h>
 #include <pimg/version.h>
 
 #include "command.h"
@@ -25,7 +27,7 @@ const std::vector<Option<pimgtool::HelpOptions>>& option_table<pimgtool::HelpOpt
 
 namespace pimgtool {
 
-using OIIO::Strutil::fmt::format;
+using pimg::format;
 
 std::string values_of(const pimg::OptionInfo& option)
 {

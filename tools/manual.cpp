@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The manual page and the completion of bash, from the command table.
 #include <OpenImageIO/strutil.h>
+
+#include <pimg/detail/format.h>
 #include <pimg/version.h>
 
 #include "command.h"
@@ -11,7 +13,7 @@ namespace pimgtool {
 
 namespace {
 
-using OIIO::Strutil::fmt::format;
+using pimg::format;
 
 /// Text as roff takes it.
 std::string roff(const std::string& text)

@@ -15,6 +15,7 @@
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 
+#include <pimg/detail/format.h>
 #include <pimg/labels.h>
 
 #include "colour.h"
@@ -30,7 +31,7 @@ using OIIO::ImageSpec;
 using OIIO::ROI;
 using OIIO::TypeDesc;
 namespace Filesystem = OIIO::Filesystem;
-using OIIO::Strutil::fmt::format;
+using pimg::format;
 
 /// Names of the files being written, for the signal handler: interrupted work leaves nothing behind either. Frames
 /// that are worked on together write one each.

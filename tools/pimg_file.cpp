@@ -5,13 +5,15 @@
 
 #include <OpenImageIO/strutil.h>
 
+#include <pimg/detail/format.h>
+
 #include "pimg_pvt.h"
 
 namespace pimgtool {
 
 namespace {
 
-using OIIO::Strutil::fmt::format;
+using pimg::format;
 
 /// Chunks of one kind, which lie together.
 struct ChunkKind {

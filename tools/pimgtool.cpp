@@ -15,6 +15,8 @@
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 
+#include <pimg/detail/format.h>
+
 #include "help.h"
 #include "sequence.h"
 
@@ -83,7 +85,7 @@ bool find_shot(const Program& settings, const std::vector<Program>& programs, St
             return false;
         for (const Program& program : programs)
             if (!shot.has(program.frame.number)) {
-                error = OIIO::Strutil::fmt::format("\"{}\" knows nothing of frame {}: expected update=1 to measure anew",
+                error = pimg::format("\"{}\" knows nothing of frame {}: expected update=1 to measure anew",
                                                    settings.shot_file, program.frame.number);
                 return false;
             }

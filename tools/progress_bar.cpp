@@ -8,6 +8,8 @@
 
 #include <OpenImageIO/strutil.h>
 
+#include <pimg/detail/format.h>
+
 namespace pimgtool {
 
 namespace {
@@ -43,7 +45,7 @@ void ProgressBar::show(float done)
     const float share = std::clamp(done, 0.0f, 1.0f);
     const std::size_t filled = std::size_t(share * float(width));
     const std::string bar = std::string(filled, '#') + std::string(width - filled, '.');
-    const std::string line = OIIO::Strutil::fmt::format("{} [{}] {:3.0f} %", m_label, bar, share * 100.0f);
+    const std::string line = pimg::format("{} [{}] {:3.0f} %", m_label, bar, share * 100.0f);
     std::fprintf(stderr, "\r%s", line.c_str());
     std::fflush(stderr);
     m_shown = std::max(m_shown, line.size());

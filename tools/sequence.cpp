@@ -12,13 +12,15 @@
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 
+#include <pimg/detail/format.h>
+
 #include "progress_bar.h"
 
 namespace pimgtool {
 
 namespace {
 
-using OIIO::Strutil::fmt::format;
+using pimg::format;
 
 std::string with_name(const Frame& frame, const std::string& error)
 {

@@ -11,6 +11,8 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
+#include <pimg/detail/format.h>
+
 namespace pimg {
 
 template<>
@@ -32,7 +34,7 @@ namespace pimgtool {
 
 namespace {
 
-using OIIO::Strutil::fmt::format;
+using pimg::format;
 
 struct Member {
     const char* name;

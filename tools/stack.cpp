@@ -6,6 +6,8 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/strutil.h>
+
+#include <pimg/detail/format.h>
 #include <pimg/imagebufalgo.h>
 #include <pimg/labels.h>
 
@@ -16,7 +18,7 @@ namespace pimgtool {
 
 namespace {
 
-using OIIO::Strutil::fmt::format;
+using pimg::format;
 
 /// Pictures of floating-point numbers hold linear light unless they say otherwise.
 bool holds_linear_light(const OIIO::ImageSpec& stored)

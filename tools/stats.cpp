@@ -5,11 +5,13 @@
 
 #include <OpenImageIO/strutil.h>
 
+#include <pimg/detail/format.h>
+
 namespace pimgtool {
 
 namespace {
 
-using OIIO::Strutil::fmt::format;
+using pimg::format;
 
 int thread_count()
 {

@@ -10,6 +10,7 @@
 
 #include <pimg/filter_table.h>
 #include <pimg/version.h>
+#include <pimg/detail/format.h>
 
 struct pimg_image {
     pimg::ProgressiveImage picture;
@@ -20,7 +21,7 @@ namespace {
 using OIIO::ImageBuf;
 using OIIO::ImageSpec;
 using OIIO::stride_t;
-using OIIO::Strutil::fmt::format;
+using pimg::format;
 
 constexpr int kLargestSide = 1 << 20;
 

@@ -5,6 +5,8 @@
 
 #include <OpenImageIO/imagebufalgo_util.h>
 
+#include <pimg/detail/format.h>
+
 namespace pimg {
 
 namespace {
@@ -17,7 +19,7 @@ bool is_empty(const OIIO::ROI& roi)
 bool is_built(OIIO::ImageBuf& dst, const ProgressiveImage& src)
 {
     if (!src.initialized())
-        dst.errorfmt("{}", src.error().empty() ? "the progressive image has not been built" : src.error());
+        set_error(dst, src.error().empty() ? "the progressive image has not been built" : src.error());
     return src.initialized();
 }
 
@@ -122,7 +124,7 @@ bool build_source(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, int nthreads, 
 {
     if (progressive.build(src, {}, nthreads))
         return true;
-    dst.errorfmt("{}", progressive.error());
+    set_error(dst, progressive.error());
     return false;
 }
 

@@ -11,6 +11,7 @@
 
 #include <OpenImageIO/imagebuf.h>
 
+#include <pimg/detail/format.h>
 #include <pimg/detail/parallel.h>
 #include <pimg/threads.h>
 
@@ -70,11 +71,11 @@ bool run_filter(OIIO::ImageBuf& dst, const Options& options, Body&& body)
         std::string error;
         if (check_options(options, error))
             return body();
-        dst.errorfmt("{}", error);
+        set_error(dst, error);
     } catch (const std::bad_alloc&) {
-        dst.errorfmt("not enough memory");
+        set_error(dst, "not enough memory");
     } catch (const std::exception& exception) {
-        dst.errorfmt("{}", exception.what());
+        set_error(dst, exception.what());
     }
     return false;
 }
@@ -88,7 +89,7 @@ OIIO::ImageBuf returned(const char* name, Filter&& filter)
 {
     OIIO::ImageBuf result;
     if (!filter(result) && !result.has_error())
-        result.errorfmt("{} error", name);
+        set_error(result, format("{} error", name));
     return result;
 }
 

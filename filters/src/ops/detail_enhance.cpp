@@ -10,6 +10,8 @@
 
 #include <OpenImageIO/strutil.h>
 
+#include <pimg/detail/format.h>
+
 #include "frame/image_filter.h"
 
 namespace pimg {
@@ -50,7 +52,7 @@ bool parse_curve(const Hierarchy& hierarchy, const std::string& text, Curve& cur
     for (const std::string& word : OIIO::Strutil::splits(text, ",")) {
         double position = 0.0, gain = 0.0;
         if (!parse_numbers(word, position, gain) || position < before) {
-            error = OIIO::Strutil::fmt::format(
+            error = format(
                 "curve=\"{}\": expected position:gain,... with positions that do not fall and gains of 0 to 100", text);
             return false;
         }
@@ -162,7 +164,7 @@ bool detail_enhance(ImageBuf& dst, const ProgressiveImage& src, const DetailEnha
         Rasters results;
         std::string error;
         if (!(by_contrast ? by_strength : by_position)(data, options, parallel, results, error)) {
-            dst.errorfmt("{}", error);
+            set_error(dst, error);
             return false;
         }
         write_channels(dst, data, roi, parallel, results);

@@ -6,6 +6,7 @@
 
 #include <pimg/detail/parallel.h>
 #include <pimg/threads.h>
+#include <pimg/detail/format.h>
 
 #include "source/float_copy.h"
 
@@ -46,7 +47,7 @@ ImageBuf srgb_encoded(const ImageBuf& src, int nthreads)
     ImageBuf dst;
     const bool copied = copy_as_float(dst, src);
     if (!copied && !dst.has_error())
-        dst.errorfmt("{}", src.has_error() ? src.geterror(false) : "the picture has no pixels");
+        set_error(dst, src.has_error() ? src.geterror(false) : "the picture has no pixels");
     const OIIO::ImageSpec& spec = dst.spec();
     if (copied && dst.localpixels() != nullptr)
         for_rows(pool_loop(nthreads), 0, spec.height * std::max(spec.depth, 1), [&](int row) {

@@ -3,6 +3,7 @@
 #include <pimg/dual_pieces.h>
 
 #include <pimg/imagebufalgo.h>
+#include <pimg/detail/format.h>
 
 #include "ops/partition.h"
 
@@ -19,11 +20,11 @@ bool dual_pieces(ImageBuf& dst, const ProgressiveImage& src, const DualPiecesOpt
         std::string error;
         DualPieces pieces;
         if (!find_level(hierarchy, options, level, error)) {
-            dst.errorfmt("{}", error);
+            set_error(dst, error);
             return false;
         }
         if (const Status status = DualPieces::from_hierarchy(hierarchy, pieces); !status) {
-            dst.errorfmt("{}", status.error());
+            set_error(dst, status.error());
             return false;
         }
         return write_partition(dst, *src.data(), roi, pool_loop(nthreads),

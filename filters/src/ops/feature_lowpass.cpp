@@ -3,6 +3,7 @@
 // are left out, and the residual, the finest band, unless nothing is.
 #include <pimg/imagebufalgo.h>
 #include <pimg/detail/parallel.h>
+#include <pimg/detail/format.h>
 
 #include <cmath>
 
@@ -78,7 +79,7 @@ bool feature_lowpass(ImageBuf& dst, const ProgressiveImage& src, const FeatureLo
         if (!positional) {
             by_strength(data, options, parallel, results);
         } else if (!by_position(data, options, parallel, results, error)) {
-            dst.errorfmt("{}", error);
+            set_error(dst, error);
             return false;
         }
         write_channels(dst, data, roi, parallel, results);

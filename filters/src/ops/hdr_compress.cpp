@@ -2,6 +2,7 @@
 // HDR compression (paper, section 5.1):
 //   log luminance ──gains──▶ compressed ──exposure──▶ display luminance ──colour ratio──▶ display RGB
 #include <pimg/imagebufalgo.h>
+#include <pimg/detail/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -228,7 +229,7 @@ bool hdr_compress(ImageBuf& dst, const ProgressiveImage& src, const HdrCompressO
         Compressed compressed { options, nullptr, { data, data.hierarchy.mesh_pixels() } };
         std::string error;
         if (!compress_luminance(data, parallel, compressed, error)) {
-            dst.errorfmt("{}", error);
+            set_error(dst, error);
             return false;
         }
         const Renderer renderer(data, compressed);

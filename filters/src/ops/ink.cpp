@@ -6,6 +6,7 @@
 
 #include <pimg/ink.h>
 #include <pimg/paint.h>
+#include <pimg/detail/format.h>
 
 #include "frame/image_filter.h"
 #include "ops/painting.h"
@@ -57,7 +58,7 @@ bool ink(ImageBuf& dst, const ProgressiveImage& src, const InkOptions& options, 
         std::vector<float> paper;
         std::string error;
         if (!draw(data, options, parallel, paper, error)) {
-            dst.errorfmt("{}", error);
+            set_error(dst, error);
             return false;
         }
         const std::vector<std::vector<float>> results(std::size_t(data.colour.count()), paper);

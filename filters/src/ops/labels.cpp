@@ -3,6 +3,8 @@
 
 #include <OpenImageIO/half.h>
 
+#include <pimg/detail/format.h>
+
 namespace pimg {
 
 namespace {
@@ -39,7 +41,7 @@ bool write_labels(OIIO::ImageBuf& dst, OIIO::ROI roi, const Index* labels, std::
 {
     const TypeDesc type = dst.spec().format;
     if (double(count) - 1.0 > largest_label(type)) {
-        dst.errorfmt("{} labels: expected at most {} in pixels of type {}", count, largest_label(type) + 1.0, type);
+        set_error(dst, format("{} labels: expected at most {} in pixels of type {}", count, largest_label(type) + 1.0, type));
         return false;
     }
     switch (type.basetype) {
@@ -52,7 +54,7 @@ bool write_labels(OIIO::ImageBuf& dst, OIIO::ROI roi, const Index* labels, std::
     case TypeDesc::HALF: return write_as<half, float>(dst, roi, labels, stride);
     case TypeDesc::FLOAT: return write_as<float>(dst, roi, labels, stride);
     case TypeDesc::DOUBLE: return write_as<double>(dst, roi, labels, stride);
-    default: dst.errorfmt("labels cannot be stored in pixels of type {}", type); return false;
+    default: set_error(dst, format("labels cannot be stored in pixels of type {}", type)); return false;
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include <pimg/imagebufalgo.h>
 #include <pimg/rasterize.h>
+#include <pimg/detail/format.h>
 
 #include "frame/image_filter.h"
 
@@ -73,7 +74,7 @@ bool level_image(ImageBuf& dst, const ProgressiveImage& src, const LevelOptions&
         std::string error;
         if (!find_level(data.hierarchy, options, level, error)
             || !make_level(data, level, true, parallel, picture, error)) {
-            dst.errorfmt("{}", error);
+            set_error(dst, error);
             return false;
         }
         const Specials specials = level == data.hierarchy.levels() ? Specials::restored : Specials::replaced;

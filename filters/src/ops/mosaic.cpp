@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include <pimg/mosaic.h>
+#include <pimg/detail/format.h>
 
 #include "frame/image_filter.h"
 #include "ops/painting.h"
@@ -21,14 +22,14 @@ bool mosaic(ImageBuf& dst, const ProgressiveImage& src, const MosaicOptions& opt
         const ParallelFor parallel = pool_loop(nthreads);
         std::vector<float> grout;
         if (!parse_colour(options.color, data.colour.count(), grout)) {
-            dst.errorfmt("color: \"{}\": expected a colour, such as black or 0.2,0.2,0.2", options.color);
+            set_error(dst, format("color: \"{}\": expected a colour, such as black or 0.2,0.2,0.2", options.color));
             return false;
         }
         Mesh mesh;
         const Level level = data.hierarchy.level_of_vertices(options.tiles);
         const Status status = refine(data.hierarchy, level, mesh);
         if (!status) {
-            dst.errorfmt("{}", status.error());
+            set_error(dst, status.error());
             return false;
         }
         OwnedPlanes planes = stored_planes(data);

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include <OpenImageIO/imagebufalgo.h>
+
+#include <pimg/detail/format.h>
 #include <pimg/paint.h>
 
 #include "frame/image_filter.h"
@@ -100,7 +102,7 @@ bool load_canvas(const PaintOptions& options, const ProgressiveImage::Data& data
 bool load(const PaintOptions& options, const ProgressiveImage::Data& data, Studio& studio, std::string& error)
 {
     if (options.max < options.min) {
-        error = OIIO::Strutil::fmt::format("max: {} is below min, {}", options.max, options.min);
+        error = format("max: {} is below min, {}", options.max, options.min);
         return false;
     }
     if (!check_strokes_name(options.strokes, error) || !load_brush(options.brush, studio.brush, error)
@@ -198,7 +200,7 @@ bool paint(ImageBuf& dst, const ProgressiveImage& src, const PaintOptions& optio
         Studio studio;
         std::string error;
         if (!load(options, data, studio, error) || !paint_canvas(data, options, parallel, studio, error)) {
-            dst.errorfmt("{}", error);
+            set_error(dst, error);
             return false;
         }
         const bool untouched = options.opacity == 0.0f && studio.on_the_picture;

@@ -10,11 +10,12 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
+#include <pimg/detail/format.h>
+
 namespace pimg {
 
 namespace {
 
-using OIIO::Strutil::fmt::format;
 
 struct Region {
     double pixels = 0, x = 0, y = 0;

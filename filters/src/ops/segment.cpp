@@ -6,6 +6,7 @@
 
 #include <OpenImageIO/strutil.h>
 
+#include <pimg/detail/format.h>
 #include <pimg/regions.h>
 
 #include "ops/partition.h"
@@ -24,7 +25,7 @@ bool find_regions(ProgressiveImage::Data& data, const SegmentOptions& options, c
     const std::size_t pixels = data.spec.image_pixels();
     const bool by_threshold = options.threshold >= 0.0f;
     if (options.regions > 0 && std::size_t(options.regions) > pixels) {
-        error = OIIO::Strutil::fmt::format("regions={}: expected at most {}, the picture's pixels", options.regions,
+        error = format("regions={}: expected at most {}, the picture's pixels", options.regions,
                                            pixels);
         return false;
     }
@@ -51,7 +52,7 @@ bool segment(ImageBuf& dst, const ProgressiveImage& src, const SegmentOptions& o
         if (!find_regions(data, options, parallel, regions, error)
             || (!options.stats.empty()
                 && !write_region_report(data.source, regions.labels, regions.count, options.stats, error))) {
-            dst.errorfmt("{}", error);
+            set_error(dst, error);
             return false;
         }
         return write_partition(dst, data, roi, parallel, regions, options.output);

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include <pimg/rasterize.h>
+#include <pimg/detail/format.h>
 
 #include "frame/image_filter.h"
 #include "ops/level_image.h"
@@ -41,7 +42,7 @@ bool wireframe(ImageBuf& dst, const ProgressiveImage& src, const WireframeOption
         std::string error;
         if (!find_level(data.hierarchy, options, level, error)
             || !make_level(data, level, options.overlay, parallel, picture, error)) {
-            dst.errorfmt("{}", error);
+            set_error(dst, error);
             return false;
         }
         std::vector<float> coverage = pimg::wireframe(picture.mesh, options.line);

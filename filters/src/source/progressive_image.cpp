@@ -9,6 +9,7 @@
 
 #include <OpenImageIO/strutil.h>
 
+#include <pimg/detail/format.h>
 #include <pimg/detail/parallel.h>
 #include <pimg/threads.h>
 
@@ -80,7 +81,7 @@ bool parse_weights(const std::string& text, std::size_t channels, std::vector<fl
     const std::size_t given = text.empty() ? 0 : 1 + std::size_t(std::count(text.begin(), text.end(), ','));
     if (given == weights.size() && (given == 0 || given == channels))
         return true;
-    error = OIIO::Strutil::fmt::format("weights=\"{}\": expected {} number{} above 0, one for each channel of the guide", text,
+    error = format("weights=\"{}\": expected {} number{} above 0, one for each channel of the guide", text,
                                        channels, channels == 1 ? "" : "s");
     return false;
 }

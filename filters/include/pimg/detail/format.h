@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// OpenImageIO's text formatting, compiled once: its own functions put all of fmt into every file that calls them, which is half
+// of the time such a file takes to compile.
+#pragma once
+
+#include <string>
+
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/strutil.h>
+
+namespace pimg {
+
+/// What OIIO::Strutil::fmt::format() returns.
+std::string format_packed(fmt::string_view pattern, fmt::format_args arguments);
+
+template<class... Arguments>
+std::string format(const char* pattern, const Arguments&... arguments)
+{
+    return format_packed(pattern, fmt::make_format_args(arguments...));
+}
+
+/// Gives `picture` a message, as its errorfmt() does.
+inline void set_error(const OIIO::ImageBuf& picture, const std::string& message)
+{
+    picture.error(OIIO::string_view(message));
+}
+
+}  // namespace pimg
