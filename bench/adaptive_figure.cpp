@@ -152,8 +152,8 @@ bool measure(const std::string& filename, const Settings& settings)
     const std::vector<float> image = gouraud(picture.luma, bands[0]);
     const std::string name = filename.substr(filename.find_last_of('/') + 1);
     std::printf("| %s | %.4f | %.2f | %.2f | %.3f | %.3f | %.2f |\n", name.c_str(),
-                double(initial.vertices()) / double(picture.luma.size()), mean_difference(image, picture.luma), of_colour,
-                full, sampling + rest, full / (sampling + rest));
+                double(initial.vertices()) / double(picture.luma.size()), mean_difference(image, picture.luma),
+                of_colour, full, sampling + rest, full / (sampling + rest));
     std::fflush(stdout);
     if (!settings.folder.empty())
         write_panels(settings.folder + "/" + name.substr(0, name.find('.')) + "_adaptive.png", guide, settings, initial,
@@ -171,8 +171,8 @@ int main(int argc, char** argv)
         if (std::strcmp(argv[i], "-density") == 0)
             settings.sampling.density = std::atof(argv[i + 1]);
         else if (std::strcmp(argv[i], "-control") == 0)
-            settings.sampling.control
-                = std::strcmp(argv[i + 1], "curvature") == 0 ? pimg::Control::curvature : pimg::Control::gradient;
+            settings.sampling.control =
+                std::strcmp(argv[i + 1], "curvature") == 0 ? pimg::Control::curvature : pimg::Control::gradient;
         else if (std::strcmp(argv[i], "-o") == 0)
             settings.folder = argv[i + 1];
     }

@@ -7,8 +7,8 @@
 #include <map>
 
 #include <pimg/bands.h>
-#include <pimg/simplify.h>
 #include <pimg/detail/sweep_plan.h>
+#include <pimg/simplify.h>
 
 #include "pictures.h"
 
@@ -84,7 +84,8 @@ void sweep(benchmark::State& state)
     const Built& b = built(int(state.range(0)));
     std::vector<float> values(b.hierarchy.vertices());
     for (auto _ : state) {
-        pimg::sweep(b.hierarchy, b.bands[0], values.data(), b.hierarchy.levels(), [](pimg::Level, pimg::Detail d) { return halved(d); });
+        pimg::sweep(b.hierarchy, b.bands[0], values.data(), b.hierarchy.levels(),
+                    [](pimg::Level, pimg::Detail d) { return halved(d); });
         benchmark::ClobberMemory();
     }
     state.SetItemsProcessed(state.iterations() * b.hierarchy.levels());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The fastest peer: meshoptimizer's simplification of the same height field to half a percent of its faces. It gives one
-// mesh of one level; nothing is recorded.
+// The fastest peer: meshoptimizer's simplification of the same height field to half a percent of its faces. It gives
+// one mesh of one level; nothing is recorded.
 #include <benchmark/benchmark.h>
 
 #include <vector>
@@ -73,10 +73,10 @@ void quality_meshopt(benchmark::State& state)
         for (std::size_t share = 0; share < bench::kShares.size(); ++share) {
             std::vector<unsigned> simpler(mesh.corners.size());
             float error = 0.0f;
-            simpler.resize(meshopt_simplify(simpler.data(), mesh.corners.data(), mesh.corners.size(), mesh.points.data(),
-                                            vertices.size(), 3 * sizeof(float),
-                                            std::size_t(bench::kShares[share] * double(mesh.corners.size())) / 3 * 3, 1e9f,
-                                            0, &error));
+            simpler.resize(meshopt_simplify(simpler.data(), mesh.corners.data(), mesh.corners.size(),
+                                            mesh.points.data(), vertices.size(), 3 * sizeof(float),
+                                            std::size_t(bench::kShares[share] * double(mesh.corners.size())) / 3 * 3,
+                                            1e9f, 0, &error));
             std::vector<std::array<unsigned, 3>> triangles;
             for (std::size_t i = 0; i < simpler.size(); i += 3)
                 triangles.push_back({ simpler[i], simpler[i + 1], simpler[i + 2] });

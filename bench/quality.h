@@ -17,7 +17,8 @@ struct Vertex {
 constexpr std::array<double, 4> kShares { 0.5, 0.1, 0.02, 0.005 };
 constexpr std::array<const char*, 4> kShareNames { "psnr_50", "psnr_10", "psnr_2", "psnr_0.5" };
 
-/// Sets the counters of one share: PSNR in dB, of 255, over the pixels that the triangles cover; and how many they do not.
+/// Sets the counters of one share: PSNR in dB, of 255, over the pixels that the triangles cover; and how many they do
+/// not.
 void report_quality(benchmark::State& state, std::size_t share, int size, const std::vector<Vertex>& vertices,
                     const std::vector<std::array<unsigned, 3>>& triangles);
 

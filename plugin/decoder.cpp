@@ -11,7 +11,7 @@ namespace {
 
 class ProxySource final : public Source {
 public:
-    explicit ProxySource(OIIO::Filesystem::IOProxy* proxy) : m_proxy(proxy), m_size(proxy->size()) {}
+    explicit ProxySource(OIIO::Filesystem::IOProxy* proxy) : m_proxy(proxy), m_size(proxy->size()) { }
     std::uint64_t size() const override { return m_size; }
     bool read(std::uint64_t offset, std::size_t count, void* to) const override
     {
@@ -34,9 +34,8 @@ bool are_native(const PictureDesc& desc, const OIIO::ImageBuf& pixels)
 {
     return pixels.localpixels() && pixels.contiguous() && pixels.nchannels() == int(desc.channels.size())
         && pixels.spec().width == int(desc.data.width) && pixels.spec().height == int(desc.data.height)
-        && std::all_of(desc.channels.begin(), desc.channels.end(), [&](const ChannelDesc& channel) {
-               return type_desc(channel.type) == pixels.pixeltype();
-           });
+        && std::all_of(desc.channels.begin(), desc.channels.end(),
+                       [&](const ChannelDesc& channel) { return type_desc(channel.type) == pixels.pixeltype(); });
 }
 
 }  // namespace

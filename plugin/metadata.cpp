@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ImageSpec <-> PictureDesc.
 //
-// The type of an attribute is written as OpenImageIO prints it ("float", "int[3]", "matrix", "timecode", "string"), its value
-// little-endian. One string is its bytes; each of an array of strings ends with a 0.
+// The type of an attribute is written as OpenImageIO prints it ("float", "int[3]", "matrix", "timecode", "string"), its
+// value little-endian. One string is its bytes; each of an array of strings ends with a 0.
 #include <algorithm>
 #include <cstring>
 
@@ -30,8 +30,8 @@ bool is_hint(const std::string& name, TypeDesc type)
         return true;
     if (OIIO::Strutil::istarts_with(name, "pimg:") || OIIO::Strutil::istarts_with(name, "thumbnail_"))
         return true;
-    for (const char* hint : { "compression", "CompressionQuality", "textureformat", "oiio:subimages", "oiio:dither",
-                              "oiio:ioproxy" })
+    for (const char* hint :
+         { "compression", "CompressionQuality", "textureformat", "oiio:subimages", "oiio:dither", "oiio:ioproxy" })
         if (OIIO::Strutil::iequals(name, hint))
             return true;
     return false;
@@ -48,7 +48,7 @@ bool has_name(TypeDesc type)
         if (type == named)
             return true;
     return type.vecsemantics == TypeDesc::NOSEMANTICS
-           || (type.aggregate == TypeDesc::VEC3 && type.vecsemantics <= TypeDesc::NORMAL);
+        || (type.aggregate == TypeDesc::VEC3 && type.vecsemantics <= TypeDesc::NORMAL);
 }
 
 /// As OpenImageIO prints it where it can read that back, else "base:aggregate:semantics[length]".
@@ -57,8 +57,8 @@ std::string type_word(TypeDesc type)
     const std::string word = has_name(type) ? type.c_str() : "";
     if (!word.empty() && TypeDesc(word) == type)
         return word;
-    return pimg::format("{}:{}:{}[{}]", TypeDesc(TypeDesc::BASETYPE(type.basetype)).c_str(),
-                                      int(type.aggregate), int(type.vecsemantics), type.arraylen);
+    return pimg::format("{}:{}:{}[{}]", TypeDesc(TypeDesc::BASETYPE(type.basetype)).c_str(), int(type.aggregate),
+                        int(type.vecsemantics), type.arraylen);
 }
 
 TypeDesc parse_type(const std::string& word)
@@ -145,8 +145,14 @@ int find_channel(const ImageSpec& spec, std::initializer_list<const char*> names
     return -1;
 }
 
-int alpha_by_name(const ImageSpec& spec) { return find_channel(spec, { "A", "Alpha" }); }
-int depth_by_name(const ImageSpec& spec) { return find_channel(spec, { "Z", "Depth" }); }
+int alpha_by_name(const ImageSpec& spec)
+{
+    return find_channel(spec, { "A", "Alpha" });
+}
+int depth_by_name(const ImageSpec& spec)
+{
+    return find_channel(spec, { "Z", "Depth" });
+}
 
 Attribute channel_attribute(const char* name, int channel)
 {
@@ -171,19 +177,26 @@ TypeDesc stored_type(TypeDesc type)
     case TypeDesc::UINT8:
     case TypeDesc::UINT16:
     case TypeDesc::UINT32:
-    case TypeDesc::HALF: return TypeDesc::BASETYPE(type.basetype);
-    default: return TypeDesc::FLOAT;
+    case TypeDesc::HALF:
+        return TypeDesc::BASETYPE(type.basetype);
+    default:
+        return TypeDesc::FLOAT;
     }
 }
 
 TypeDesc type_desc(SampleType type)
 {
     switch (type) {
-    case SampleType::uint8: return TypeDesc::UINT8;
-    case SampleType::uint16: return TypeDesc::UINT16;
-    case SampleType::uint32: return TypeDesc::UINT32;
-    case SampleType::half: return TypeDesc::HALF;
-    case SampleType::float32: break;
+    case SampleType::uint8:
+        return TypeDesc::UINT8;
+    case SampleType::uint16:
+        return TypeDesc::UINT16;
+    case SampleType::uint32:
+        return TypeDesc::UINT32;
+    case SampleType::half:
+        return TypeDesc::HALF;
+    case SampleType::float32:
+        break;
     }
     return TypeDesc::FLOAT;
 }
@@ -193,11 +206,16 @@ namespace {
 SampleType sample_type(TypeDesc type)
 {
     switch (type.basetype) {
-    case TypeDesc::UINT8: return SampleType::uint8;
-    case TypeDesc::UINT16: return SampleType::uint16;
-    case TypeDesc::UINT32: return SampleType::uint32;
-    case TypeDesc::HALF: return SampleType::half;
-    default: return SampleType::float32;
+    case TypeDesc::UINT8:
+        return SampleType::uint8;
+    case TypeDesc::UINT16:
+        return SampleType::uint16;
+    case TypeDesc::UINT32:
+        return SampleType::uint32;
+    case TypeDesc::HALF:
+        return SampleType::half;
+    default:
+        return SampleType::float32;
     }
 }
 
@@ -263,13 +281,17 @@ void add_hints(ImageSpec& spec, const WriteOptions& options)
         if (is_default && describe_option(option.rule, option.get(defaults)).default_value.empty())
             continue;  // not set: there is no hint for that
         const std::string name = std::string("pimg:") + option.rule.key;
-        const auto add = [&](const auto& value) { spec.attribute(name, value); };
-        std::visit([&](const auto& value) {
-            if constexpr (std::is_same_v<std::decay_t<decltype(value)>, bool>)
-                add(int(value));
-            else
-                add(value);
-        }, option.get(options));
+        const auto add = [&](const auto& value) {
+            spec.attribute(name, value);
+        };
+        std::visit(
+            [&](const auto& value) {
+                if constexpr (std::is_same_v<std::decay_t<decltype(value)>, bool>)
+                    add(int(value));
+                else
+                    add(value);
+            },
+            option.get(options));
     }
 }
 
@@ -277,20 +299,26 @@ std::string hint_text(const ParamValue& hint)
 {
     // Not get_float(): OpenImageIO 2.4 returns its default for an int.
     switch (hint.type().basetype) {
-    case TypeDesc::STRING: return hint.get_string();
-    case TypeDesc::FLOAT: return pimg::format("{:.9g}", hint.get<float>());
-    case TypeDesc::INT: return std::to_string(hint.get<int>());
-    default: return hint.get_string();
+    case TypeDesc::STRING:
+        return hint.get_string();
+    case TypeDesc::FLOAT:
+        return pimg::format("{:.9g}", hint.get<float>());
+    case TypeDesc::INT:
+        return std::to_string(hint.get<int>());
+    default:
+        return hint.get_string();
     }
 }
 
 }  // namespace io
 
-template<> const std::vector<Option<io::WriteOptions>>& option_table<io::WriteOptions>()
+template<>
+const std::vector<Option<io::WriteOptions>>& option_table<io::WriteOptions>()
 {
     using W = io::WriteOptions;
     static const std::vector<Option<W>> table = {
-        { &W::profile, { "profile", 0, 0, "", "compact|full", "full keeps the hierarchy, so that filters start at once" } },
+        { &W::profile,
+          { "profile", 0, 0, "", "compact|full", "full keeps the hierarchy, so that filters start at once" } },
         { &W::vertices, { "vertices", 0, 0.3, "of the pixels", "", "size of the mesh layer, the preview" } },
         { &W::effort, { "effort", 0, 2, "", "", "0 writes faster, 2 smaller" } },
         { &W::quality, { "quality", 0, 100, "percent", "", "the same as effort; samples are always exact" } },

@@ -32,8 +32,8 @@ struct WriteOptions {
 OIIO::TypeDesc stored_type(OIIO::TypeDesc type);
 OIIO::TypeDesc type_desc(SampleType type);
 
-/// From the header of a picture to be written, whose types are stored types, and back. Metadata the writer or reader makes
-/// itself, hints among it, is left out on both ways.
+/// From the header of a picture to be written, whose types are stored types, and back. Metadata the writer or reader
+/// makes itself, hints among it, is left out on both ways.
 PictureDesc to_desc(const OIIO::ImageSpec& spec);
 OIIO::ImageSpec to_spec(const PictureDesc& desc);
 
@@ -67,11 +67,13 @@ bool guarded(const File& file, const std::string& name, Body&& body)
 /// Opens a file within OpenImageIO's limits:channels and limits:imagesize_MB. The proxy must outlive the decoder.
 Status open_decoder(OIIO::Filesystem::IOProxy* proxy, Decoder& decoder);
 
-/// The hierarchy in a file, for ProgressiveImage::adopt(). `pixels` is the picture the decoder gives; both must outlive the result.
+/// The hierarchy in a file, for ProgressiveImage::adopt(). `pixels` is the picture the decoder gives; both must outlive
+/// the result.
 ProgressiveImage::StoredHierarchy stored_hierarchy(const Decoder& decoder, const OIIO::ImageBuf& pixels);
 
 }  // namespace io
 
-template<> const std::vector<Option<io::WriteOptions>>& option_table<io::WriteOptions>();
+template<>
+const std::vector<Option<io::WriteOptions>>& option_table<io::WriteOptions>();
 
 }  // namespace pimg

@@ -47,7 +47,7 @@ bool PimgInput::valid_file(const std::string& name) const
 {
     char signature[8] = {};
     return Filesystem::read_bytes(file_of(name), signature, sizeof signature) == sizeof signature
-           && is_pimg(signature, sizeof signature);
+        && is_pimg(signature, sizeof signature);
 }
 
 #if OIIO_VERSION >= OIIO_MAKE_VERSION(2, 5, 0)
@@ -55,7 +55,7 @@ bool PimgInput::valid_file(Filesystem::IOProxy* proxy) const
 {
     char signature[8] = {};
     return proxy && proxy->mode() == Filesystem::IOProxy::Read
-           && proxy->pread(signature, sizeof signature, 0) == sizeof signature && is_pimg(signature, sizeof signature);
+        && proxy->pread(signature, sizeof signature, 0) == sizeof signature && is_pimg(signature, sizeof signature);
 }
 #endif
 
@@ -104,7 +104,9 @@ bool PimgInput::close()
 /// Shape of MIP level `level` of the picture `top`: halved and rounded down, as the texture system wants it.
 static ImageSpec mip_spec(const ImageSpec& top, int level)
 {
-    const auto halved = [level](int size) { return std::max(1, size >> level); };
+    const auto halved = [level](int size) {
+        return std::max(1, size >> level);
+    };
     ImageSpec spec = top;
     spec.x = top.x >> level, spec.full_x = top.full_x >> level;
     spec.y = top.y >> level, spec.full_y = top.full_y >> level;
@@ -200,8 +202,9 @@ bool PimgInput::read_native_scanlines(int subimage, int miplevel, int ybegin, in
         if (y0 < 0 || y0 >= y1 || chbegin < 0 || chbegin >= chend || chend > spec.nchannels)
             return fail("pimg: no such scanlines");
         const auto pixel = stride_t(spec.pixel_bytes(chbegin, chend, true));
-        return read(miplevel, { 0, spec.width, y0, y1, chbegin, chend, static_cast<std::uint8_t*>(data), pixel,
-                                pixel * spec.width });
+        return read(
+            miplevel,
+            { 0, spec.width, y0, y1, chbegin, chend, static_cast<std::uint8_t*>(data), pixel, pixel * spec.width });
     });
 }
 
@@ -239,7 +242,10 @@ bool PimgInput::read(int miplevel, const Request& request)
     return true;
 }
 
-std::unique_ptr<OIIO::ImageInput> make_input() { return std::make_unique<PimgInput>(); }
+std::unique_ptr<OIIO::ImageInput> make_input()
+{
+    return std::make_unique<PimgInput>();
+}
 
 }  // namespace io
 }  // namespace pimg

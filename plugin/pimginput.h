@@ -46,14 +46,20 @@ public:
 #if OIIO_VERSION >= OIIO_MAKE_VERSION(2, 5, 0)
     bool valid_file(OIIO::Filesystem::IOProxy* proxy) const override;
 #endif
-    bool open(const std::string& name, OIIO::ImageSpec& spec) override { return open(name, spec, OIIO::ImageSpec()); }
+    bool open(const std::string& name, OIIO::ImageSpec& spec) override
+    {
+        return open(name, spec, OIIO::ImageSpec());
+    }
     bool open(const std::string& name, OIIO::ImageSpec& spec, const OIIO::ImageSpec& config) override;
     bool close() override;
     int current_miplevel() const override;
     bool seek_subimage(int subimage, int miplevel) override;
     OIIO::ImageSpec spec(int subimage, int miplevel) override;
     OIIO::ImageSpec spec_dimensions(int subimage, int miplevel) override;
-    const OIIO::ImageSpec& spec() const override { return m_spec; }
+    const OIIO::ImageSpec& spec() const override
+    {
+        return m_spec;
+    }
     bool get_thumbnail(OIIO::ImageBuf& thumbnail, int subimage) override;
 
     bool read_native_scanline(int subimage, int miplevel, int y, int z, void* data) override;
@@ -63,7 +69,8 @@ public:
     bool read_native_tile(int subimage, int miplevel, int x, int y, int z, void* data) override;
 
 private:
-    template<class Body> bool guarded(Body&& body)
+    template<class Body>
+    bool guarded(Body&& body)
     {
         return io::guarded(*this, m_name, body);
     }
@@ -91,9 +98,9 @@ private:
 
     std::mutex m_tiles_mutex, m_made_mutex, m_whole_mutex;
     std::list<std::shared_ptr<const Tile>> m_tiles;             ///< the last ones that were not read whole
-    std::vector<std::shared_ptr<const OIIO::ImageBuf>> m_made;        ///< levels that are not in the file
+    std::vector<std::shared_ptr<const OIIO::ImageBuf>> m_made;  ///< levels that are not in the file
     enum class Whole { unknown, yes, no } m_whole = Whole::unknown;
-    std::string m_failure;                                      ///< of making a level; it would fail again
+    std::string m_failure;  ///< of making a level; it would fail again
 };
 
 }  // namespace io

@@ -49,8 +49,8 @@ bool PimgInput::decode(const Request& request)
     std::mutex mutex;
     Status failure;
     run(pool_loop(threads()), std::size_t(columns) * std::size_t(rows), [&](std::size_t i) {
-        const Status status
-            = decode_tile(request, std::uint32_t(column0 + int(i) % columns), std::uint32_t(row0 + int(i) / columns));
+        const Status status =
+            decode_tile(request, std::uint32_t(column0 + int(i) % columns), std::uint32_t(row0 + int(i) / columns));
         if (!status) {
             std::lock_guard<std::mutex> lock(mutex);
             failure = status;
@@ -64,8 +64,8 @@ std::vector<Plane> PimgInput::planes(const ImageSpec& spec, const Request& reque
 {
     std::vector<Plane> planes(std::size_t(spec.nchannels));
     for (int c = request.c0; c < request.c1; ++c)
-        planes[std::size_t(c)]
-            = { request.to + spec.pixel_bytes(request.c0, c, true), request.x_stride, request.y_stride };
+        planes[std::size_t(c)] = { request.to + spec.pixel_bytes(request.c0, c, true), request.x_stride,
+                                   request.y_stride };
     return planes;
 }
 
@@ -89,8 +89,8 @@ Status PimgInput::decode_tile(const Request& request, std::uint32_t column, std:
     const std::size_t pixel = m_stored.pixel_bytes(true), wanted = m_stored.pixel_bytes(part.c0, part.c1, true);
     const std::size_t skipped = m_stored.pixel_bytes(0, part.c0, true);
     for (int y = part.y0; y < part.y1; ++y) {
-        const std::uint8_t* from
-            = whole->pixels.data() + (std::size_t(y - top) * std::size_t(right - left) + std::size_t(part.x0 - left)) * pixel;
+        const std::uint8_t* from = whole->pixels.data()
+            + (std::size_t(y - top) * std::size_t(right - left) + std::size_t(part.x0 - left)) * pixel;
         std::uint8_t* to = part.to + (y - part.y0) * part.y_stride;
         if (wanted == pixel && part.x_stride == stride_t(pixel))
             std::memcpy(to, from, std::size_t(part.x1 - part.x0) * pixel);
@@ -105,7 +105,9 @@ Status PimgInput::decode_tile(const Request& request, std::uint32_t column, std:
 std::shared_ptr<const Tile> PimgInput::tile(std::uint32_t column, std::uint32_t row, Status& status)
 {
     const auto side = int(m_decoder.tile());
-    const auto is_it = [&](const auto& t) { return t->column == column && t->row == row; };
+    const auto is_it = [&](const auto& t) {
+        return t->column == column && t->row == row;
+    };
     {
         std::lock_guard<std::mutex> lock(m_tiles_mutex);
         const auto found = std::find_if(m_tiles.begin(), m_tiles.end(), is_it);
@@ -144,8 +146,15 @@ std::shared_ptr<const ImageBuf> PimgInput::picture()
     auto picture = std::make_shared<ImageBuf>(spec);
     if (m_stored.channelformats.empty()) {
         const auto pixel = stride_t(spec.pixel_bytes());
-        const Request all { 0, spec.width, 0, spec.height, 0, spec.nchannels,
-                            static_cast<std::uint8_t*>(picture->localpixels()), pixel, pixel * spec.width };
+        const Request all { 0,
+                            spec.width,
+                            0,
+                            spec.height,
+                            0,
+                            spec.nchannels,
+                            static_cast<std::uint8_t*>(picture->localpixels()),
+                            pixel,
+                            pixel * spec.width };
         return decode(all) ? picture : nullptr;
     }
     std::vector<std::uint8_t> packed(m_stored.image_bytes(true));
@@ -222,7 +231,9 @@ bool PimgInput::get_thumbnail(ImageBuf& thumbnail, int subimage)
 
         const auto pixel = stride_t(m_stored.pixel_bytes(0, spec.nchannels, true));
         std::vector<std::uint8_t> packed(spec.image_pixels() * std::size_t(pixel));
-        const Request all { 0, spec.width, 0, spec.height, 0, spec.nchannels, packed.data(), pixel, pixel * spec.width };
+        const Request all {
+            0, spec.width, 0, spec.height, 0, spec.nchannels, packed.data(), pixel, pixel * spec.width
+        };
         const double vertices = 0.015 * double(m_stored.image_pixels()), enough = double(spec.image_pixels());
         const Status status = m_decoder.read_preview(std::uint32_t(spec.width), std::uint32_t(spec.height),
                                                      planes(m_stored, all), std::min(1.0, enough / vertices));

@@ -115,7 +115,7 @@ private:
 
 class PimgOutput final : public OIIO::ImageOutput {
 public:
-    explicit PimgOutput(const Hierarchy* hierarchy) : m_given(hierarchy) {}
+    explicit PimgOutput(const Hierarchy* hierarchy) : m_given(hierarchy) { }
     ~PimgOutput() override { close(); }
 
     const char* format_name() const override { return "pimg"; }
@@ -136,7 +136,8 @@ private:
     bool finish();
     bool build_hierarchy(ProgressiveImage& progressive);
     bool store(const std::vector<std::uint8_t>& bytes);
-    template<class Body> bool guarded(Body&& body)
+    template<class Body>
+    bool guarded(Body&& body)
     {
         return io::guarded(*this, m_name, body);
     }
@@ -144,7 +145,7 @@ private:
     const Hierarchy* m_given;
     std::string m_name;
     WriteOptions m_options;
-    BuildOptions m_build;                ///< of the hierarchy
+    BuildOptions m_build;  ///< of the hierarchy
     bool m_build_given = false;
     std::vector<std::uint8_t> m_pixels;  ///< packed native samples, row by row
     std::vector<bool> m_here;            ///< which scanlines or tiles have come
@@ -166,7 +167,9 @@ int PimgOutput::supports(OIIO::string_view feature) const
 bool PimgOutput::check(const ImageSpec& spec)
 {
     constexpr int kSide = 1 << 20, kFar = 1 << 30;
-    const auto far_away = [](int v) { return v < -kFar || v > kFar; };
+    const auto far_away = [](int v) {
+        return v < -kFar || v > kFar;
+    };
     if (spec.deep)
         errorfmt("pimg: deep images are not supported");
     else if (spec.depth > 1)
@@ -174,7 +177,8 @@ bool PimgOutput::check(const ImageSpec& spec)
     else if (spec.width < 1 || spec.height < 1 || spec.width > kSide || spec.height > kSide)
         errorfmt("pimg: a picture of {} x {} pixels: sides must be 1 to {}", spec.width, spec.height, kSide);
     else if (spec.full_width > kSide || spec.full_height > kSide)
-        errorfmt("pimg: a display window of {} x {} pixels: sides must be 1 to {}", spec.full_width, spec.full_height, kSide);
+        errorfmt("pimg: a display window of {} x {} pixels: sides must be 1 to {}", spec.full_width, spec.full_height,
+                 kSide);
     else if (spec.nchannels < 1 || spec.nchannels > 1024)
         errorfmt("pimg: {} channels: expected 1 to 1024", spec.nchannels);
     else if (far_away(spec.x) || far_away(spec.y) || far_away(spec.full_x) || far_away(spec.full_y))
@@ -258,7 +262,9 @@ bool PimgOutput::open(const std::string& name, const ImageSpec& spec, OpenMode m
         }
         m_pixels.resize(m_spec.image_bytes(true));
         const bool tiled = m_spec.tile_width > 0 && m_spec.tile_height > 0;
-        const auto parts = [](int size, int part) { return std::size_t(size + part - 1) / std::size_t(part); };
+        const auto parts = [](int size, int part) {
+            return std::size_t(size + part - 1) / std::size_t(part);
+        };
         m_missing = tiled ? parts(m_spec.width, m_spec.tile_width) * parts(m_spec.height, m_spec.tile_height)
                           : std::size_t(m_spec.height);
         m_here.assign(m_missing, false);

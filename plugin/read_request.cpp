@@ -5,8 +5,8 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
-#include <pimg/detail/format.h>
 #include <pimg/colour.h>
+#include <pimg/detail/format.h>
 #include <pimg/display.h>
 #include <pimg/imagebufalgo.h>
 #include <pimg/labels.h>
@@ -91,7 +91,8 @@ bool only_reads(const PaintOptions& options, std::string& error)
     return error.empty();
 }
 
-/// Readers are asked for floating-point numbers, which OpenImageIO would scale to 0..1: labels are made floats as they are.
+/// Readers are asked for floating-point numbers, which OpenImageIO would scale to 0..1: labels are made floats as they
+/// are.
 bool labels_to_float(ImageBuf& labels)
 {
     ImageSpec spec = labels.spec();

@@ -44,8 +44,8 @@ struct ReadRequest : ReadOptions {
     BuildOptions build;
     bool rebuild = false;  ///< the hierarchy is to be one of these options, whatever the file has
 
-    /// Keys of the query win over hints. In the query a key that is not known is an error; a hint may be meant for other
-    /// formats.
+    /// Keys of the query win over hints. In the query a key that is not known is an error; a hint may be meant for
+    /// other formats.
     bool parse(const std::string& name, const OIIO::ImageSpec& config, std::string& error);
 
     bool filtered() const { return m_filter != nullptr; }

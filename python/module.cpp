@@ -85,7 +85,7 @@ void add_progressive(py::class_<Progressive>& type)
     type.def("__repr__", [](const Progressive& self) {
         const OIIO::ImageSpec& spec = self.image.spec();
         return pimg::format("<pimg.ProgressiveImage {} x {} {}, {} splits>", spec.width, spec.height,
-                                          OIIO::Strutil::join(spec.channelnames, ","), self.image.hierarchy().levels());
+                            OIIO::Strutil::join(spec.channelnames, ","), self.image.hierarchy().levels());
     });
 }
 

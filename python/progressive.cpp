@@ -146,9 +146,8 @@ Progressive open(const std::string& filename, bool array, const py::object& prog
     const auto build_options = options_from<BuildOptions>(options);
     Progressive result;
     result.form.array = array;
-    const bool rebuild = std::any_of(options.begin(), options.end(), [](const auto& option) {
-        return option.first != "incolorspace";
-    });
+    const bool rebuild =
+        std::any_of(options.begin(), options.end(), [](const auto& option) { return option.first != "incolorspace"; });
     std::string error;
     build_with(result.image, progress, [&](const Progress& report) {
         const std::unique_ptr<OIIO::ImageInput> input = io::make_input();

@@ -7,8 +7,8 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
-#include <pimg/detail/format.h>
 #include <pimg/colour.h>
+#include <pimg/detail/format.h>
 
 namespace pimgtool {
 
@@ -76,16 +76,15 @@ std::string configured_space(const std::string& name)
     return name;
 }
 
-OIIO::ColorProcessorHandle conversion(const std::string& from, const std::string& to,
-                                      const ConversionOptions& options, std::string& error)
+OIIO::ColorProcessorHandle conversion(const std::string& from, const std::string& to, const ConversionOptions& options,
+                                      std::string& error)
 {
-    OIIO::ColorProcessorHandle processor =
-        colour_config().createColorProcessor(from, to, options.key, options.value);
+    OIIO::ColorProcessorHandle processor = colour_config().createColorProcessor(from, to, options.key, options.value);
     if (!processor)
         error = pimg::format("no conversion from \"{}\" to \"{}\": expected colour spaces of {}: {}", from, to,
-                                     colour_config().getNumDisplays() ? "the configuration $OCIO"
-                                                                      : "OpenImageIO ($OCIO names no configuration)",
-                                     Strutil::join(colour_config().getColorSpaceNames(), ", "));
+                             colour_config().getNumDisplays() ? "the configuration $OCIO"
+                                                              : "OpenImageIO ($OCIO names no configuration)",
+                             Strutil::join(colour_config().getColorSpaceNames(), ", "));
     colour_config().geterror();  // said better
     return processor;
 }

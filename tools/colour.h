@@ -40,15 +40,16 @@ std::string configured_space(const std::string& name);
 bool is_known_space(const std::string& name, std::string& error);
 
 /// The conversion between two spaces; null, with a line saying what there is, if the configuration has none.
-OIIO::ColorProcessorHandle conversion(const std::string& from, const std::string& to,
-                                      const ConversionOptions& options, std::string& error);
+OIIO::ColorProcessorHandle conversion(const std::string& from, const std::string& to, const ConversionOptions& options,
+                                      std::string& error);
 
 /// Puts the configuration's names in place of "default". False, with a line saying what there is, for names it has not.
 bool find_display(std::string& display, std::string& view, std::string& error);
 
 /// The transform for a display found so; null, with a line saying why, if there is none.
 OIIO::ColorProcessorHandle display_transform(const std::string& display, const std::string& view,
-                                             const std::string& from, const DisplayOptions& options, std::string& error);
+                                             const std::string& from, const DisplayOptions& options,
+                                             std::string& error);
 
 /// The name of the space that transform leads to; empty if the configuration does not say.
 std::string display_space(const std::string& display, const std::string& view);

@@ -31,7 +31,8 @@ std::vector<Option<T>> conversion_table()
 template<>
 const std::vector<Option<pimgtool::ConversionOptions>>& option_table<pimgtool::ConversionOptions>()
 {
-    static const std::vector<Option<pimgtool::ConversionOptions>> table = conversion_table<pimgtool::ConversionOptions>();
+    static const std::vector<Option<pimgtool::ConversionOptions>> table =
+        conversion_table<pimgtool::ConversionOptions>();
     return table;
 }
 
@@ -41,9 +42,10 @@ const std::vector<Option<pimgtool::DisplayOptions>>& option_table<pimgtool::Disp
     using T = pimgtool::DisplayOptions;
     static const std::vector<Option<T>> table = [] {
         std::vector<Option<T>> all = conversion_table<T>();
-        all.insert(all.begin(),
-                   { { &T::from, { "from", 0, 0, "", "", "space to convert from; empty: the one the picture says it is in" } },
-                     { &T::looks, { "looks", 0, 0, "", "", "looks to apply instead of the view's own" } } });
+        all.insert(
+            all.begin(),
+            { { &T::from, { "from", 0, 0, "", "", "space to convert from; empty: the one the picture says it is in" } },
+              { &T::looks, { "looks", 0, 0, "", "", "looks to apply instead of the view's own" } } });
         return all;
     }();
     return table;
@@ -115,8 +117,7 @@ bool tocolorspace(Session& session, const Words& words, const ConversionOptions&
 bool check_ociodisplay(const Words& words, const DisplayOptions& options, std::string& error)
 {
     std::string display = words[0], view = words[1];
-    return find_display(display, view, error)
-        && (options.from.empty() || is_known_space(options.from, error));
+    return find_display(display, view, error) && (options.from.empty() || is_known_space(options.from, error));
 }
 
 bool ociodisplay(Session& session, const Words& words, const DisplayOptions& options)

@@ -110,30 +110,30 @@ bool answered_already(const Call& call, Program&, std::string& error)
 CommandGroup filters_group()
 {
     namespace iba = pimg::ImageBufAlgo;
-    return { "Filters on the progressive image of the top picture",
-             {
-                 operation<pimg::BuildOptions>(
-                     "--build", "builds the progressive image now, as the filters that follow are to use it", build),
-                 filter<pimg::LevelOptions>(
-                     "--level", "picture of a coarser mesh; at most one key, none for the finest", iba::level_image),
-                 filter<pimg::WireframeOptions>("--wireframe", "edges of the mesh of a level, chosen as for --level",
-                                                iba::wireframe),
-                 filter<pimg::FeatureLowpassOptions>("--feature-lowpass",
-                                                     "drops small features and keeps the edges of large ones",
-                                                     iba::feature_lowpass),
-                 filter<pimg::DetailEnhanceOptions>("--detail-enhance", "amplifies the details of a range of splits",
-                                                    iba::detail_enhance),
-                 hdr_compress_row(),
-                 filter<pimg::DualPiecesOptions>(
-                     "--dual-pieces", "pixels that each vertex of a level stands for, chosen as for --level",
-                     iba::dual_pieces),
-                 filter<pimg::SegmentOptions>("--segment", "merges what looks alike into connected regions",
-                                              iba::segment),
-                 filter<pimg::PaintOptions>("--paint", "paints with brush strokes that follow the picture's forms",
-                                            iba::paint),
-                 filter<pimg::MosaicOptions>("--mosaic", "lays the pieces of a level as tiles", iba::mosaic),
-                 filter<pimg::InkOptions>("--ink", "draws with pen and ink", iba::ink),
-             } };
+    return {
+        "Filters on the progressive image of the top picture",
+        {
+            operation<pimg::BuildOptions>(
+                "--build", "builds the progressive image now, as the filters that follow are to use it", build),
+            filter<pimg::LevelOptions>("--level", "picture of a coarser mesh; at most one key, none for the finest",
+                                       iba::level_image),
+            filter<pimg::WireframeOptions>("--wireframe", "edges of the mesh of a level, chosen as for --level",
+                                           iba::wireframe),
+            filter<pimg::FeatureLowpassOptions>(
+                "--feature-lowpass", "drops small features and keeps the edges of large ones", iba::feature_lowpass),
+            filter<pimg::DetailEnhanceOptions>("--detail-enhance", "amplifies the details of a range of splits",
+                                               iba::detail_enhance),
+            hdr_compress_row(),
+            filter<pimg::DualPiecesOptions>("--dual-pieces",
+                                            "pixels that each vertex of a level stands for, chosen as for --level",
+                                            iba::dual_pieces),
+            filter<pimg::SegmentOptions>("--segment", "merges what looks alike into connected regions", iba::segment),
+            filter<pimg::PaintOptions>("--paint", "paints with brush strokes that follow the picture's forms",
+                                       iba::paint),
+            filter<pimg::MosaicOptions>("--mosaic", "lays the pieces of a level as tiles", iba::mosaic),
+            filter<pimg::InkOptions>("--ink", "draws with pen and ink", iba::ink),
+        }
+    };
 }
 
 CommandGroup stack_group()

@@ -18,7 +18,8 @@ namespace {
 
 using pimg::format;
 
-/// -o:profile=compact a.pimg, or the same as -o a.pimg:profile=compact. A file keeps the hierarchy unless told otherwise.
+/// -o:profile=compact a.pimg, or the same as -o a.pimg:profile=compact. A file keeps the hierarchy unless told
+/// otherwise.
 bool output_file(const Call& call, Program& program, std::string& error)
 {
     Call keys = call;
@@ -43,10 +44,8 @@ bool output_file(const Call& call, Program& program, std::string& error)
     }
     program.written.push_back(filename);
     program.dangling.clear();
-    program.steps.push_back({ call.command->name, [=](Session& session) {
-                                 return session.write(filename, options);
-                             },
-                              true });
+    program.steps.push_back(
+        { call.command->name, [=](Session& session) { return session.write(filename, options); }, true });
     return true;
 }
 
@@ -141,36 +140,39 @@ bool shot_stats(const Call& call, Program& settings, std::string& error)
 
 CommandGroup sequence_group()
 {
-    return { "Sequences",
-             {
-                 general_setting("--frames", "RANGE",
-                                 "all of this for every frame: 1-240, 1-240x2, 1,5-7; in names, # is its number as %04d, @ as %d",
-                                 frames),
-                 general_setting("--views", "NAMES",
-                                 "and for every view: left,right; in names, %V is the view and %v its first letter",
-                                 views),
-                 general_setting("--parallel-frames", "", "works on several frames at a time, each with one thread",
-                                 parallel_frames),
-                 general_setting("--shot-stats", "FILE",
-                                 "--hdr-compress exposes the frames alike, as FILE says; measured first if there is no FILE",
-                                 shot_stats, pimg::describe_options<ShotOptions>),
-             } };
+    return {
+        "Sequences",
+        {
+            general_setting(
+                "--frames", "RANGE",
+                "all of this for every frame: 1-240, 1-240x2, 1,5-7; in names, # is its number as %04d, @ as %d",
+                frames),
+            general_setting("--views", "NAMES",
+                            "and for every view: left,right; in names, %V is the view and %v its first letter", views),
+            general_setting("--parallel-frames", "", "works on several frames at a time, each with one thread",
+                            parallel_frames),
+            general_setting("--shot-stats", "FILE",
+                            "--hdr-compress exposes the frames alike, as FILE says; measured first if there is no FILE",
+                            shot_stats, pimg::describe_options<ShotOptions>),
+        }
+    };
 }
 
 CommandGroup output_group()
 {
-    return { "Output",
-             {
-                 { "-o", "FILE", "writes the top picture, which stays on the stack; keys are for .pimg files", 1, 0,
-                   output_keys, output_file },
-                 setting("--info", "FILE", "prints what is in a .pimg file: windows, channels, sizes of its parts", info),
-                 setting("-d", "TYPE",
-                         "pixel type of the files that follow: uint8, uint16, half, float ...; else the input's",
-                         pixel_type),
-                 setting("--raw", "",
-                         "writes the numbers as they are; else linear light is encoded sRGB in files of whole numbers",
-                         raw),
-             } };
+    return {
+        "Output",
+        {
+            { "-o", "FILE", "writes the top picture, which stays on the stack; keys are for .pimg files", 1, 0,
+              output_keys, output_file },
+            setting("--info", "FILE", "prints what is in a .pimg file: windows, channels, sizes of its parts", info),
+            setting("-d", "TYPE",
+                    "pixel type of the files that follow: uint8, uint16, half, float ...; else the input's",
+                    pixel_type),
+            setting("--raw", "",
+                    "writes the numbers as they are; else linear light is encoded sRGB in files of whole numbers", raw),
+        }
+    };
 }
 
 }  // namespace pimgtool

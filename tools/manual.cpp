@@ -55,12 +55,14 @@ std::string choices_for(const std::string& word)
 std::string manual_page()
 {
     std::string text = format(".TH PIMGTOOL 1 \"\" \"pimg {}\"\n", PIMG_VERSION_STRING);
-    text += ".SH NAME\npimgtool \\- HDR compression, smoothing, enhancement and painting with progressive images\n"
-            ".SH SYNOPSIS\n\\fBpimgtool\\fR \\fIINPUT\\fR [\\fB\\-\\-operation\\fR[:key=value...]]... "
-            "\\fB\\-o\\fR \\fIOUTPUT\\fR ...\n"
-            ".SH DESCRIPTION\nArguments are taken from left to right: a file name puts a picture on the stack, an operation\n"
-            "replaces the picture on top, \\fB\\-o\\fR writes it. Any format OpenImageIO knows can be read and written.\n"
-            "Keys are shown with their defaults.\n";
+    text +=
+        ".SH NAME\npimgtool \\- HDR compression, smoothing, enhancement and painting with progressive images\n"
+        ".SH SYNOPSIS\n\\fBpimgtool\\fR \\fIINPUT\\fR [\\fB\\-\\-operation\\fR[:key=value...]]... "
+        "\\fB\\-o\\fR \\fIOUTPUT\\fR ...\n"
+        ".SH DESCRIPTION\nArguments are taken from left to right: a file name puts a picture on the stack, an "
+        "operation\n"
+        "replaces the picture on top, \\fB\\-o\\fR writes it. Any format OpenImageIO knows can be read and written.\n"
+        "Keys are shown with their defaults.\n";
     for (const CommandGroup& group : command_table()) {
         text += format(".SS {}\n", roff(group.title));
         for (const Command& command : group.commands)
@@ -72,7 +74,8 @@ std::string manual_page()
             "pimgtool \\-\\-frames 1\\-240 in.#.exr \\-\\-hdr\\-compress \\-\\-shot\\-stats shot.json \\-o out.#.exr\n"
             ".fi\n"
             ".SH ENVIRONMENT\n.TP\n\\fBOCIO\\fR\nOpenColorIO configuration to use\n"
-            ".SH EXIT STATUS\n0 if all went well; 1 and one line on standard error if not, and then no file is left half written.\n"
+            ".SH EXIT STATUS\n0 if all went well; 1 and one line on standard error if not, and then no file is left "
+            "half written.\n"
             ".SH SEE ALSO\n\\fBoiiotool\\fR(1)\n";
     return text;
 }
@@ -101,9 +104,13 @@ std::string bash_completion()
     // Of the word, bash replaces only what follows the last of its own word breaks, ':' and '=' among them.
     return "# Completion of pimgtool for bash.\n"
            "_pimgtool() {\n"
-           "    local names=" + quoted(names.substr(1)) + "\n"
-           "    local -A keys=(\n" + keys + "    ) values=(\n" + values + "    ) words=(\n" + words + "    )\n"
-           R"BASH(    local line=${COMP_LINE:0:COMP_POINT}
+           "    local names="
+        + quoted(names.substr(1))
+        + "\n"
+          "    local -A keys=(\n"
+        + keys + "    ) values=(\n" + values + "    ) words=(\n" + words
+        + "    )\n"
+          R"BASH(    local line=${COMP_LINE:0:COMP_POINT}
     local word=${line##* } before=${line% *}
     local previous=${before##* } choices done_part=
     COMPREPLY=()

@@ -2,8 +2,8 @@
 #include "output.h"
 
 #include <algorithm>
-#include <csignal>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <mutex>
@@ -137,7 +137,8 @@ ImageSpec file_spec(const ImageBuf& pixels, const PixelTypes& types, const Image
         spec.erase_attribute("oiio:BitsPerSample");
     spec.erase_attribute("textureformat");  // one level of no MIP-map
     spec.tile_width = spec.tile_height = spec.tile_depth = 0;
-    // Files two to three per cent larger than by OpenImageIO's 6, in a third of the time, which was a sixth of all of it.
+    // Files two to three per cent larger than by OpenImageIO's 6, in a third of the time, which was a sixth of all of
+    // it.
     if (spec.find_attribute("png:compressionLevel") == nullptr)
         spec.attribute("png:compressionLevel", 4);
     spec.set_format(types.all);
@@ -168,9 +169,10 @@ bool write_pixels(ImageOutput& out, const ImageBuf& pixels, const std::string& f
     return written && closed;
 }
 
-/// The first of the types for labels that the format stores as such and that holds them; else the one that holds most. OpenEXR
-/// has integers, but most readers turn pixels into floats that end at one; so there it is float.
-bool find_label_type(ImageOutput& out, const std::string& scratch, pimg::Index count, TypeDesc& type, std::string& error)
+/// The first of the types for labels that the format stores as such and that holds them; else the one that holds most.
+/// OpenEXR has integers, but most readers turn pixels into floats that end at one; so there it is float.
+bool find_label_type(ImageOutput& out, const std::string& scratch, pimg::Index count, TypeDesc& type,
+                     std::string& error)
 {
     double most = 0.0;
     for (const TypeDesc wanted : { TypeDesc::UINT32, TypeDesc::UINT16, TypeDesc::FLOAT, TypeDesc::UINT8 }) {

@@ -39,9 +39,14 @@ std::vector<ChunkKind> kinds_of(const std::vector<pimg::ChunkInfo>& chunks)
 const char* meaning(const std::string& type)
 {
     static const std::pair<const char*, const char*> meanings[] = {
-        { "HEAD", "sizes" },           { "CHAN", "channels" },         { "META", "metadata" },
-        { "MESH", "base mesh" },       { "BATC", "vertex splits: the preview" }, { "RAST", "tiles of exact samples" },
-        { "COLL", "hierarchy" },       { "DONE", "end" },
+        { "HEAD", "sizes" },
+        { "CHAN", "channels" },
+        { "META", "metadata" },
+        { "MESH", "base mesh" },
+        { "BATC", "vertex splits: the preview" },
+        { "RAST", "tiles of exact samples" },
+        { "COLL", "hierarchy" },
+        { "DONE", "end" },
     };
     for (const auto& [name, words] : meanings)
         if (type == name)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// .pimg files are read and written by the reader and writer linked in, whatever plugin $OIIO_LIBRARY_PATH names: they hand
-// over hierarchies, too.
+// .pimg files are read and written by the reader and writer linked in, whatever plugin $OIIO_LIBRARY_PATH names: they
+// hand over hierarchies, too.
 #pragma once
 
 #include <memory>

@@ -86,7 +86,7 @@ bool find_shot(const Program& settings, const std::vector<Program>& programs, St
         for (const Program& program : programs)
             if (!shot.has(program.frame.number)) {
                 error = pimg::format("\"{}\" knows nothing of frame {}: expected update=1 to measure anew",
-                                                   settings.shot_file, program.frame.number);
+                                     settings.shot_file, program.frame.number);
                 return false;
             }
         return true;

@@ -75,8 +75,8 @@ bool check_written(const std::vector<Program>& programs, std::string& error)
     return true;
 }
 
-bool parse_one(const std::vector<std::string>& arguments, const Frame& frame, const Program& settings,
-               Program& program, std::string& error)
+bool parse_one(const std::vector<std::string>& arguments, const Frame& frame, const Program& settings, Program& program,
+               std::string& error)
 {
     std::vector<std::string> expanded;
     for (const std::string& argument : arguments)

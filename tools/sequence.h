@@ -15,8 +15,8 @@ namespace pimgtool {
 bool parse_frames(const std::vector<std::string>& arguments, Program& settings, std::vector<Program>& programs,
                   std::string& error);
 
-/// `argument` with `frame` in place of "#" (four digits each), "@" (one each) and "%04d", and `view` in place of "%V" (its first
-/// letter for "%v").
+/// `argument` with `frame` in place of "#" (four digits each), "@" (one each) and "%04d", and `view` in place of "%V"
+/// (its first letter for "%v").
 std::string for_frame(const std::string& argument, const Frame& frame);
 
 /// Calls run() for every program with a session of its own; `parallel`: for several at a time, each with one thread.

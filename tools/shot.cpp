@@ -20,7 +20,8 @@ const std::vector<Option<pimgtool::ShotOptions>>& option_table<pimgtool::ShotOpt
 {
     using T = pimgtool::ShotOptions;
     static const std::vector<Option<T>> table = {
-        { &T::mode, { "mode", 0, 0, "", "smooth|lock", "smooth follows slow changes; lock: one exposure for the shot" } },
+        { &T::mode,
+          { "mode", 0, 0, "", "smooth|lock", "smooth follows slow changes; lock: one exposure for the shot" } },
         { &T::radius, { "radius", 0.1, 10000, "frames", "", "how far smooth looks around" } },
         { &T::update, { "update", 0, 0, "", "", "measure though FILE is there, and write it anew" } },
         { &T::render, { "render", 0, 0, "", "", "0: only measure, write no pictures" } },
@@ -93,7 +94,8 @@ bool Shot::read(const std::string& filename, std::string& error)
             add(entry.get<int>("frame"), anchors);
         }
     } catch (const json::ptree_error& e) {
-        error = format("cannot read \"{}\": expected figures of a shot as --shot-stats writes them: {}", filename, e.what());
+        error = format("cannot read \"{}\": expected figures of a shot as --shot-stats writes them: {}", filename,
+                       e.what());
         return false;
     }
     return true;
@@ -104,8 +106,8 @@ bool Shot::write(const std::string& filename, std::string& error) const
     std::string text = "{\n  \"frames\": [";
     const char* separator = "\n";
     for (const auto& [number, anchors] : m_frames) {
-        text += format("{}    {{ \"frame\": {}, \"dmax\": {:.9g}, \"key\": {:.9g}, \"white\": {:.9g} }}", separator, number,
-                       anchors.dmax, anchors.key, anchors.white);
+        text += format("{}    {{ \"frame\": {}, \"dmax\": {:.9g}, \"key\": {:.9g}, \"white\": {:.9g} }}", separator,
+                       number, anchors.dmax, anchors.key, anchors.white);
         separator = ",\n";
     }
     text += "\n  ]\n}\n";

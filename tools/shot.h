@@ -32,9 +32,9 @@ public:
 
     bool has(int frame) const { return m_frames.count(frame) > 0; }
 
-    /// What to render a frame with. It depends on what is in the file and on nothing else, so any machine can render any
-    /// frame. smooth: a line fitted to the frames around, which follows a drift to the very ends of the shot;
-    /// lock: the shot's mean.
+    /// What to render a frame with. It depends on what is in the file and on nothing else, so any machine can render
+    /// any frame. smooth: a line fitted to the frames around, which follows a drift to the very ends of the shot; lock:
+    /// the shot's mean.
     Anchors anchors(int frame, const ShotOptions& options) const;
 
     bool read(const std::string& filename, std::string& error);

@@ -148,8 +148,8 @@ bool Session::write(const std::string& filename, const pimg::io::WriteOptions& o
     }
     const StageTimer timer(stats, Stage::write);
     const Picture& picture = top();
-    OutputPicture out { *picture.pixels, picture.stored, picture.linear_light && !output.raw, picture.labels, hierarchy,
-                        options };
+    OutputPicture out { *picture.pixels, picture.stored, picture.linear_light && !output.raw,
+                        picture.labels,  hierarchy,      options };
     if (picture.labels) {
         out.types = { OIIO::TypeUnknown, {} };
         out.encode_srgb = false;
@@ -193,8 +193,8 @@ const pimg::ProgressiveImage* Session::hierarchy_of_top()
     }
     const pimg::Hierarchy& hierarchy = lazy.image.hierarchy();
     stats.add(top().name, lazy.image);
-    say(format("{}: {} {} vertices, {} splits, {:.2f} s", top().name, lazy.stored ? "read" : "built", hierarchy.vertices(), hierarchy.levels(),
-               lazy.image.stats().simplify_seconds));
+    say(format("{}: {} {} vertices, {} splits, {:.2f} s", top().name, lazy.stored ? "read" : "built",
+               hierarchy.vertices(), hierarchy.levels(), lazy.image.stats().simplify_seconds));
     return &lazy.image;
 }
 

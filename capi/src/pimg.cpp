@@ -8,9 +8,9 @@
 #include <new>
 #include <string>
 
+#include <pimg/detail/format.h>
 #include <pimg/filter_table.h>
 #include <pimg/version.h>
-#include <pimg/detail/format.h>
 
 struct pimg_image {
     pimg::ProgressiveImage picture;

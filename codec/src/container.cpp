@@ -65,7 +65,7 @@ bool is_window_ok(const Window& w)
     constexpr std::int32_t kFar = 1 << 30;
     constexpr std::uint32_t kSide = 1u << 20;
     return w.x >= -kFar && w.x <= kFar && w.y >= -kFar && w.y <= kFar && w.width >= 1 && w.width <= kSide
-           && w.height >= 1 && w.height <= kSide;
+        && w.height >= 1 && w.height <= kSide;
 }
 
 }  // namespace
@@ -181,7 +181,9 @@ Bytes write_attributes(const PictureDesc& desc)
 
 Status read_attributes(ByteReader in, const DecodeLimits& limits, PictureDesc& desc)
 {
-    const auto bad = [] { return Status::failure("pimg: the attributes are damaged"); };
+    const auto bad = [] {
+        return Status::failure("pimg: the attributes are damaged");
+    };
     const std::uint32_t method = in.u8();
     const std::uint64_t size = in.varint();
     if (size > limits.attribute_bytes)

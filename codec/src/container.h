@@ -15,8 +15,8 @@ constexpr std::uint8_t kSignature[8] = { 0x8a, 'P', 'I', 'M', 0x0d, 0x0a, 0x1a, 
 constexpr std::uint32_t kMajorVersion = 1, kMinorVersion = 0;
 constexpr std::size_t kChunkHead = 16, kChunkTail = 4;
 
-/// Chunk flags. A reader that does not know a critical chunk must refuse the file; an editor that does not know a chunk may
-/// copy it only if it is marked safe.
+/// Chunk flags. A reader that does not know a critical chunk must refuse the file; an editor that does not know a chunk
+/// may copy it only if it is marked safe.
 enum ChunkFlags : std::uint16_t { kAncillary = 0, kCritical = 1, kSafeToCopy = 2 };
 
 struct ChunkHead {

@@ -8,9 +8,9 @@
 #include <pimg/codec.h>
 #include <pimg/detail/parallel.h>
 
+#include "decoder_file.h"
 #include "raster/samples.h"
 #include "sequence/collapse_sequence.h"
-#include "decoder_file.h"
 
 namespace pimg {
 
@@ -18,7 +18,7 @@ namespace {
 
 class MemorySource : public Source {
 public:
-    MemorySource(const void* data, std::size_t size) : m_data(static_cast<const std::uint8_t*>(data)), m_size(size) {}
+    MemorySource(const void* data, std::size_t size) : m_data(static_cast<const std::uint8_t*>(data)), m_size(size) { }
     std::uint64_t size() const override { return m_size; }
     bool read(std::uint64_t offset, std::size_t count, void* to) const override
     {
@@ -66,7 +66,8 @@ std::vector<Plane> shifted(const std::vector<Plane>& planes, std::uint32_t x, st
     std::vector<Plane> moved = planes;
     for (Plane& p : moved)
         if (p.data)
-            p.data = static_cast<std::uint8_t*>(p.data) + std::ptrdiff_t(x) * p.x_stride + std::ptrdiff_t(y) * p.y_stride;
+            p.data =
+                static_cast<std::uint8_t*>(p.data) + std::ptrdiff_t(x) * p.x_stride + std::ptrdiff_t(y) * p.y_stride;
     return moved;
 }
 
@@ -88,10 +89,22 @@ Status Decoder::open(std::shared_ptr<const Source> source, const DecodeLimits& l
     });
 }
 
-const PictureDesc& Decoder::desc() const { return m_file->desc; }
-Profile Decoder::profile() const { return Profile(m_file->head.profile); }
-std::uint32_t Decoder::tile() const { return m_file->head.tile; }
-std::uint64_t Decoder::sample_hash() const { return m_file->head.hash; }
+const PictureDesc& Decoder::desc() const
+{
+    return m_file->desc;
+}
+Profile Decoder::profile() const
+{
+    return Profile(m_file->head.profile);
+}
+std::uint32_t Decoder::tile() const
+{
+    return m_file->head.tile;
+}
+std::uint64_t Decoder::sample_hash() const
+{
+    return m_file->head.hash;
+}
 
 Status Decoder::chunks(std::vector<ChunkInfo>& list) const
 {
@@ -121,8 +134,8 @@ Status Decoder::read(const std::vector<Plane>& samples, ReadInfo* info, const Pa
             if (failed)
                 return;
             const std::uint32_t column = std::uint32_t(i % f.columns()), row = std::uint32_t(i / f.columns());
-            const Status one = guarded(
-                [&] { return f.tile(column, row, shifted(samples, column * f.head.tile, row * f.head.tile)); });
+            const Status one =
+                guarded([&] { return f.tile(column, row, shifted(samples, column * f.head.tile, row * f.head.tile)); });
             if (!one) {
                 failed = true;
                 const std::lock_guard<std::mutex> lock(mutex);
@@ -186,8 +199,8 @@ Status Decoder::read_preview(std::uint32_t width, std::uint32_t height, const st
             std::vector<std::vector<std::int32_t>> group(f.group_size(first));
             for (std::size_t k = 0; k < group.size(); ++k) {
                 group[k].resize(std::size_t(width) * height);
-                fill(layer.mesh, triangles, numbers, layer.values[first + k], mesh_shift(f.desc.channels[first + k].type),
-                     points, group[k].data());
+                fill(layer.mesh, triangles, numbers, layer.values[first + k],
+                     mesh_shift(f.desc.channels[first + k].type), points, group[k].data());
             }
             f.finish(group, first, width, height, false, samples);
             first += group.size();

@@ -68,7 +68,8 @@ Status Decoder::File::open()
                 return status.ok() ? Status::failure("pimg: the file ends within its header") : status;
             break;
         }
-        const bool is_head = chunk.head.is("HEAD"), is_channels = chunk.head.is("CHAN"), is_meta = chunk.head.is("META");
+        const bool is_head = chunk.head.is("HEAD"), is_channels = chunk.head.is("CHAN"),
+                   is_meta = chunk.head.is("META");
         const bool first = offset == sizeof signature;
         if (is_head != first || (is_channels && channels) || (is_meta && (attributes || !channels)))
             return Status::failure("pimg: header chunks are out of order");
@@ -79,9 +80,9 @@ Status Decoder::File::open()
             Bytes bytes;
             status = payload(chunk, bytes);
             if (status)
-                status = is_head       ? read_head(body_of(bytes), limits, head, desc)
-                         : is_channels ? read_channels(body_of(bytes), limits, head, desc)
-                                       : read_attributes(body_of(bytes), limits, desc);
+                status = is_head  ? read_head(body_of(bytes), limits, head, desc)
+                    : is_channels ? read_channels(body_of(bytes), limits, head, desc)
+                                  : read_attributes(body_of(bytes), limits, desc);
             if (!status)
                 return status;
             channels |= is_channels;
@@ -173,7 +174,8 @@ Status Decoder::File::read_layer(double share, MeshLayer& layer_out) const
 {
     if (base.offset == 0)
         return Status::failure("pimg: the file ends before its first picture");
-    const std::uint64_t most = std::min<std::uint64_t>(head.vertices, std::uint64_t(shape_width()) * std::uint64_t(shape_height()));
+    const std::uint64_t most =
+        std::min<std::uint64_t>(head.vertices, std::uint64_t(shape_width()) * std::uint64_t(shape_height()));
     MeshLayerReader reader(extent(), desc.channels.size(), most);
     Bytes bytes;
     Status status = payload(base, bytes);

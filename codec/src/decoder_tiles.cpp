@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "raster/samples.h"
 #include "raster/raster_tile.h"
+#include "raster/samples.h"
 
 namespace pimg {
 

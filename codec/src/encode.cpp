@@ -8,12 +8,12 @@
 #include <pimg/detail/parallel.h>
 #include <pimg/simplify.h>
 
-#include "raster/samples.h"
-#include "sequence/collapse_sequence.h"
 #include "container.h"
 #include "mesh_layer/gouraud.h"
 #include "mesh_layer/mesh_layer.h"
 #include "raster/raster_tile.h"
+#include "raster/samples.h"
+#include "sequence/collapse_sequence.h"
 
 namespace pimg {
 
@@ -22,8 +22,11 @@ namespace {
 class Encoder {
 public:
     Encoder(const PictureDesc& desc, const std::vector<ConstPlane>& samples, const EncodeOptions& options)
-        : m_desc(desc), m_samples(samples), m_options(options)
-    {}
+        : m_desc(desc),
+          m_samples(samples),
+          m_options(options)
+    {
+    }
     Status run(Bytes& file, EncodeStats& stats);
 
 private:
@@ -32,7 +35,8 @@ private:
     Status build_hierarchy();
     std::uint32_t lattice_shift() const;
     Status make_mesh_layer(MeshLayerChunks& chunks);
-    Bytes write_tile(std::uint32_t column, std::uint32_t row, const MeshLayerChunks& chunks, const TriangleGrid& grid) const;
+    Bytes write_tile(std::uint32_t column, std::uint32_t row, const MeshLayerChunks& chunks,
+                     const TriangleGrid& grid) const;
     void make_tiles(const MeshLayerChunks& chunks, std::vector<Bytes>& tiles) const;
 
     const PictureDesc& m_desc;
@@ -77,8 +81,9 @@ Transform Encoder::choose_transform() const
         const std::uint32_t height = std::min<std::uint32_t>(m_integers.height, 24);
         const std::uint32_t strips = std::min<std::uint32_t>(8, m_integers.height / height);
         for (std::uint32_t s = 0; s < strips; ++s) {
-            const std::size_t first = std::size_t(std::uint64_t(m_integers.height - height) * s / std::max(1u, strips - 1))
-                                      * m_integers.width;
+            const std::size_t first =
+                std::size_t(std::uint64_t(m_integers.height - height) * s / std::max(1u, strips - 1))
+                * m_integers.width;
             const std::size_t count = std::size_t(height) * m_integers.width;
             std::vector<std::vector<std::int32_t>> strip;
             for (std::size_t c = 0; c < 3; ++c)
@@ -87,7 +92,7 @@ Transform Encoder::choose_transform() const
             forward(t, strip);
             std::vector<std::uint16_t> sizes(count), before(count);
             for (std::size_t c = 0; c < 3; ++c) {
-                const TilePlane plane { int(m_integers.width), int(height), strip[c].data(), nullptr,
+                const TilePlane plane { int(m_integers.width),           int(height), strip[c].data(), nullptr,
                                         c > 0 ? before.data() : nullptr, sizes.data() };
                 bits += estimate_tile_plane(plane, {});
                 sizes.swap(before);
@@ -106,7 +111,7 @@ Status Encoder::build_hierarchy()
     m_hierarchy = m_options.hierarchy;
     if (m_hierarchy) {
         const bool fits = m_hierarchy->width == int(m_desc.data.width) && m_hierarchy->height == int(m_desc.data.height)
-                          && !m_hierarchy->empty();
+            && !m_hierarchy->empty();
         return fits ? Status() : Status::failure("pimg: the hierarchy is not one of this picture");
     }
     const std::vector<float> guide = luma(m_desc, m_integers);
@@ -114,7 +119,9 @@ Status Encoder::build_hierarchy()
     options.parallel = m_options.parallel;
     options.base_faces = Index(std::clamp<std::size_t>(m_desc.pixels() / 512, 2, 128));
     if (m_options.progress)
-        options.progress = [&](float done) { return m_options.progress(0.5f * done); };
+        options.progress = [&](float done) {
+            return m_options.progress(0.5f * done);
+        };
     std::vector<Bands> bands;
     const Status status = simplify({ int(m_desc.data.width), int(m_desc.data.height), { { guide.data(), 1.0f } } },
                                    options, m_own, bands);
@@ -122,8 +129,8 @@ Status Encoder::build_hierarchy()
     return status;
 }
 
-/// A hierarchy is stored as it is, but for a single 8-bit channel, where its positions would take more than the picture:
-/// these go to 1/16 pixel.
+/// A hierarchy is stored as it is, but for a single 8-bit channel, where its positions would take more than the
+/// picture: these go to 1/16 pixel.
 std::uint32_t Encoder::lattice_shift() const
 {
     if (m_options.lattice_shift >= 0)
@@ -203,8 +210,9 @@ Bytes Encoder::write_tile(std::uint32_t column, std::uint32_t row, const MeshLay
             const std::int32_t* from = m_integers.channels[c].data() + std::size_t(y + i) * m_integers.width + x;
             std::copy(from, from + width, values.begin() + std::ptrdiff_t(std::size_t(i) * width));
         }
-        TilePlane plane { int(width), int(height), values.data(), nullptr, c > 0 ? before.data() : nullptr,
-                          sizes.data() };
+        TilePlane plane {
+            int(width), int(height), values.data(), nullptr, c > 0 ? before.data() : nullptr, sizes.data()
+        };
         if (m_options.effort > 0) {
             fill(chunks.layer.mesh, grid.triangles(), grid.at(column, row), chunks.layer.values[c],
                  mesh_shift(m_desc.channels[c].type), points, mesh.data());
@@ -229,7 +237,9 @@ void Encoder::make_tiles(const MeshLayerChunks& chunks, std::vector<Bytes>& tile
 
 Status Encoder::run(Bytes& file, EncodeStats& stats)
 {
-    const auto stopped = [] { return Status::failure("writing was stopped"); };
+    const auto stopped = [] {
+        return Status::failure("writing was stopped");
+    };
     m_integers = gather(m_desc, m_samples, 0, 0, m_desc.data.width, m_desc.data.height);
     Status status = build_hierarchy();
     if (!status)

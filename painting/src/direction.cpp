@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Structure tensors on a pyramid. Each level knows directions of its own scale; where it sees nothing but noise,
-// or what runs in all directions, the next coarser one decides. So an edge keeps its exact direction and a flat sky is swept
-// by the directions of what borders it, without a gap in between.
-#include <pimg/direction.h>
+// or what runs in all directions, the next coarser one decides. So an edge keeps its exact direction and a flat sky is
+// swept by the directions of what borders it, without a gap in between.
 #include <pimg/detail/parallel.h>
+#include <pimg/direction.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Distances to the sides of the pieces' polygons. The polygons of all vertices share their sides and cover the plane, but
-// for folds where a star is very concave; there the tile deeper inside wins, which keeps every pixel on one tile.
-#include <pimg/mosaic.h>
+// Distances to the sides of the pieces' polygons. The polygons of all vertices share their sides and cover the plane,
+// but for folds where a star is very concave; there the tile deeper inside wins, which keeps every pixel on one tile.
 #include <pimg/detail/parallel.h>
+#include <pimg/mosaic.h>
 
 #include <algorithm>
 #include <cmath>

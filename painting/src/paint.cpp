@@ -2,8 +2,8 @@
 // Strokes to pixels. The canvas is cut into tiles; every tile takes the strokes that touch it in order. In a tile
 // a stroke first finds, for each pixel, the nearest point of its middle line (how far along, how far across),
 // then looks up the brush there and blends.
-#include <pimg/paint.h>
 #include <pimg/detail/parallel.h>
+#include <pimg/paint.h>
 
 #include <algorithm>
 #include <cmath>
@@ -123,8 +123,8 @@ private:
     float m_bare[kTile * kTile];  ///< share of the canvas that opaque strokes would leave
 };
 
-/// Takes over the pixels nearer to segment a -> b than to any before; m_across keeps the square, with the side's sign. The
-/// first and last segment reach on beyond their ends.
+/// Takes over the pixels nearer to segment a -> b than to any before; m_across keeps the square, with the side's sign.
+/// The first and last segment reach on beyond their ends.
 void TilePainter::measure(Vec2 a, Vec2 b, float start, bool first, bool last, Box box)
 {
     const float dx = b.x - a.x, dy = b.y - a.y;
@@ -149,8 +149,8 @@ void TilePainter::measure(Vec2 a, Vec2 b, float start, bool first, bool last, Bo
     }
 }
 
-/// Turns places beside the line into alpha (kept in m_along, and for the relief in m_distance, which stays kFar where there
-/// is no paint) and height (in m_across).
+/// Turns places beside the line into alpha (kept in m_along, and for the relief in m_distance, which stays kFar where
+/// there is no paint) and height (in m_across).
 void TilePainter::look_up(const Stroke& stroke, float length, Box box)
 {
     const float half = 0.5f * stroke.width, total = length + stroke.width, per_width = 1.0f / stroke.width;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Plans a painting: dabs in coarse-to-fine order are bent along the edges, fitted between them, and kept when they
 // bring the canvas closer to the picture.
-#include <pimg/strokes.h>
 #include <pimg/detail/parallel.h>
+#include <pimg/strokes.h>
 
 #include <algorithm>
 #include <cmath>

@@ -11,12 +11,12 @@ enum { width = 61, height = 47, channels = 4 };
 
 static int failures = 0;
 
-#define CHECK(condition)                                                        \
-    do {                                                                        \
-        if (!(condition)) {                                                     \
-            fprintf(stderr, "line %d: not true: %s\n", __LINE__, #condition);   \
-            ++failures;                                                         \
-        }                                                                       \
+#define CHECK(condition)                                                                                               \
+    do {                                                                                                               \
+        if (!(condition)) {                                                                                            \
+            fprintf(stderr, "line %d: not true: %s\n", __LINE__, #condition);                                          \
+            ++failures;                                                                                                \
+        }                                                                                                              \
     } while (0)
 
 static float pixels[width * height * channels];
@@ -85,7 +85,7 @@ static void test_strides(void)
     for (int i = 0; i < width * height; ++i)
         memcpy(&spread[step * ((height - 1 - i / width) * width + i % width)], &pixels[channels * i],
                channels * sizeof(float));
-    pimg_pixels bottom_up = { &spread[step * (height - 1) * width], width, height, channels, step * sizeof(float),
+    pimg_pixels bottom_up = { &spread[step * (height - 1) * width],      width, height, channels, step * sizeof(float),
                               -(ptrdiff_t)(step * width * sizeof(float)) };
     const pimg_pixels plain = packed(pixels, width, height), out = packed(expected, width, height);
     pimg_image* a = pimg_build(&plain, "", NULL, 0);

@@ -40,13 +40,21 @@ inline Picture make_picture(std::uint32_t width, std::uint32_t height, const std
         for (std::uint32_t x = 0; x < width; ++x)
             for (std::size_t c = 0; c < types.size(); ++c) {
                 const double level = 20 + 100.0 * x / width + 40 * std::sin(0.2 * y + double(c))
-                                     + (x + 2 * y > width ? 60 : 0) + double(noise(seed) % 7);
+                    + (x + 2 * y > width ? 60 : 0) + double(noise(seed) % 7);
                 std::uint32_t bits = 0;
                 switch (types[c]) {
-                case pimg::SampleType::uint8: bits = std::uint32_t(level); break;
-                case pimg::SampleType::uint16: bits = std::uint32_t(level * 200); break;
-                case pimg::SampleType::uint32: bits = std::uint32_t(level * 1e7); break;
-                case pimg::SampleType::half: bits = 0x2c00u + std::uint32_t(level * 20); break;
+                case pimg::SampleType::uint8:
+                    bits = std::uint32_t(level);
+                    break;
+                case pimg::SampleType::uint16:
+                    bits = std::uint32_t(level * 200);
+                    break;
+                case pimg::SampleType::uint32:
+                    bits = std::uint32_t(level * 1e7);
+                    break;
+                case pimg::SampleType::half:
+                    bits = 0x2c00u + std::uint32_t(level * 20);
+                    break;
                 case pimg::SampleType::float32: {
                     const float f = float(level) / 255.0f;
                     std::memcpy(&bits, &f, 4);
@@ -71,7 +79,9 @@ inline std::vector<Picture> conformance_pictures()
     all.push_back(make_picture(24, 37, { T::half, T::half, T::half, T::half }));
     all.push_back(make_picture(21, 19, { T::float32, T::uint32 }));
     Picture& named = all[2];
-    named.desc.attributes = { { "Make", "string", { 'a', 'b', 0, 'c' } }, { "empty", "", {} }, { "Make", "int[3]", Picture().pixels } };
+    named.desc.attributes = { { "Make", "string", { 'a', 'b', 0, 'c' } },
+                              { "empty", "", {} },
+                              { "Make", "int[3]", Picture().pixels } };
     return all;
 }
 

@@ -74,7 +74,8 @@ TEST(Codec, RoundTripsEveryTypeSizeAndProfile)
                 options.tile = 16;
                 expect_round_trip(p, options);
             }
-    for (auto [w, h] : { std::pair<unsigned, unsigned>(1, 2), { 2, 1 }, { 2, 2 }, { 3, 3 }, { 1, 40 }, { 257, 3 }, { 300, 270 } })
+    for (auto [w, h] :
+         { std::pair<unsigned, unsigned>(1, 2), { 2, 1 }, { 2, 2 }, { 3, 3 }, { 1, 40 }, { 257, 3 }, { 300, 270 } })
         expect_round_trip(make_picture(w, h, { SampleType::uint8, SampleType::uint8, SampleType::uint8 }));
 }
 
@@ -94,7 +95,8 @@ TEST(Codec, KeepsAll65536HalfPatterns)
 TEST(Codec, KeepsFloatsThatAreNotNumbers)
 {
     Picture p = make_picture(64, 32, { SampleType::float32, SampleType::float32, SampleType::float32 });
-    const std::uint32_t odd[] = { 0x7fc00000u, 0x7f800001u, 0xffffffffu, 0x80000000u, 1u, 0x807fffffu, 0x7f800000u, 0xff800000u };
+    const std::uint32_t odd[] = { 0x7fc00000u, 0x7f800001u, 0xffffffffu, 0x80000000u,
+                                  1u,          0x807fffffu, 0x7f800000u, 0xff800000u };
     std::uint32_t seed = 7;
     for (std::size_t i = 0; i < p.pixels.size(); i += 4)
         if (noise(seed) % 3 == 0)
@@ -214,7 +216,8 @@ TEST(Codec, ThumbnailNeedsOnlyTheMeshLayer)
 /// A picture's green channel or only one, a value per mesh pixel.
 struct MeshGuide {
     explicit MeshGuide(const Picture& p)
-        : width(std::max(2, int(p.desc.data.width))), height(std::max(2, int(p.desc.data.height)))
+        : width(std::max(2, int(p.desc.data.width))),
+          height(std::max(2, int(p.desc.data.height)))
     {
         const std::size_t step = p.desc.channels.size();
         for (int y = 0; y < height; ++y)
@@ -316,7 +319,7 @@ TEST(Codec, OpeningReadsOnlyTheHeader)
 {
     class Counting : public Source {
     public:
-        explicit Counting(std::shared_ptr<const Source> source) : m_source(std::move(source)) {}
+        explicit Counting(std::shared_ptr<const Source> source) : m_source(std::move(source)) { }
         std::uint64_t size() const override { return m_source->size(); }
         bool read(std::uint64_t offset, std::size_t count, void* to) const override
         {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the conformance files into a directory and, for each, what this library decodes from the whole file and from two
-// prefixes: NAME.pimg, NAME.raw, NAME.cutN.raw. tests/codec/reader_test.py compares them with the independent reader.
+// Writes the conformance files into a directory and, for each, what this library decodes from the whole file and from
+// two prefixes: NAME.pimg, NAME.raw, NAME.cutN.raw. tests/codec/reader_test.py compares them with the independent
+// reader.
 #include <cstdio>
 #include <fstream>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Damaged files: every truncation of six small ones, every single bit flipped, random damage with the checksums off. Nothing
-// to check but that each ends in an error or a picture: meant to be run with AddressSanitizer and
+// Damaged files: every truncation of six small ones, every single bit flipped, random damage with the checksums off.
+// Nothing to check but that each ends in an error or a picture: meant to be run with AddressSanitizer and
 // UndefinedBehaviorSanitizer, and within a time limit. Usage: codec_damage [rounds of random damage, default 2000]
 #include <cstdio>
 #include <cstdlib>
@@ -41,7 +41,8 @@ void try_file(const std::uint8_t* data, std::size_t size, bool check_crc, const 
     if (status && decoder.has_hierarchy()) {
         Hierarchy h;
         std::vector<Bands> bands;
-        const std::size_t n = std::size_t(std::max(2u, decoder.desc().data.width)) * std::max(2u, decoder.desc().data.height);
+        const std::size_t n =
+            std::size_t(std::max(2u, decoder.desc().data.width)) * std::max(2u, decoder.desc().data.height);
         const std::vector<float> guide(n, 1.0f);
         decoder.read_hierarchy(interleaved(decoder.desc(), (const void*)pixels.data()), { guide.data() }, h, bands);
     }
@@ -109,7 +110,8 @@ int main(int argc, char** argv)
             file[noise(seed) % file.size()] = std::uint8_t(noise(seed) & 1 ? noise(seed) : 1u << (noise(seed) % 8));
         try_file(file.data(), file.size(), false, pictures[i], random);
     }
-    for (const auto& [name, o] : { std::pair<const char*, Outcome>("truncated", cut), { "one bit flipped", flipped },
+    for (const auto& [name, o] : { std::pair<const char*, Outcome>("truncated", cut),
+                                   { "one bit flipped", flipped },
                                    { "random, checksums off", random } })
         std::printf("%-24s %6ld pictures %6ld errors %ld silent\n", name, o.pictures, o.errors, o.silent);
     return cut.silent + flipped.silent > 0;

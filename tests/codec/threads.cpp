@@ -15,7 +15,8 @@ using namespace pimg_test;
 
 constexpr std::uint32_t kTile = 64;
 
-/// Tiles from number `first` on and round to it, a thumbnail, the whole picture and its hierarchy; false if one is wrong.
+/// Tiles from number `first` on and round to it, a thumbnail, the whole picture and its hierarchy; false if one is
+/// wrong.
 bool read_all(const Decoder& decoder, const Picture& original, std::uint32_t first)
 {
     const PictureDesc& desc = decoder.desc();
@@ -38,10 +39,10 @@ bool read_all(const Decoder& decoder, const Picture& original, std::uint32_t fir
     PictureDesc thumbnail = desc;
     thumbnail.data.width = thumbnail.data.height = 16;
     return decoder.read_preview(16, 16, interleaved(thumbnail, static_cast<void*>(small.data())))
-           && decoder.chunks(chunks) && decoder.read(interleaved(desc, static_cast<void*>(whole.data())))
-           && decoder.read_hierarchy(interleaved(desc, static_cast<const void*>(whole.data())), { flat.data() }, hierarchy,
-                                     bands)
-           && pixels == original.pixels && whole == original.pixels;
+        && decoder.chunks(chunks) && decoder.read(interleaved(desc, static_cast<void*>(whole.data())))
+        && decoder.read_hierarchy(interleaved(desc, static_cast<const void*>(whole.data())), { flat.data() }, hierarchy,
+                                  bands)
+        && pixels == original.pixels && whole == original.pixels;
 }
 
 }  // namespace
@@ -54,7 +55,8 @@ int main()
     options.tile = kTile;
     std::vector<std::uint8_t> file;
     Decoder decoder;
-    if (!encode(picture.desc, picture.planes(), options, file) || !decoder.open(memory_source(file.data(), file.size())))
+    if (!encode(picture.desc, picture.planes(), options, file)
+        || !decoder.open(memory_source(file.data(), file.size())))
         return 1;
     constexpr std::uint32_t kThreads = 4;
     bool right[kThreads] = {};

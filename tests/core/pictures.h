@@ -55,8 +55,16 @@ inline Picture scene(int width, int height)
 inline std::vector<Picture> awkward_pictures()
 {
     std::vector<Picture> all;
-    for (auto [w, h] : { std::pair { 1, 1 }, { 1, 7 }, { 9, 1 }, { 2, 2 }, { 2, 9 }, { 3, 3 }, { 5, 4 }, { 65, 3 },
-                         { 33, 34 }, { 130, 70 } }) {
+    for (auto [w, h] : { std::pair { 1, 1 },
+                         { 1, 7 },
+                         { 9, 1 },
+                         { 2, 2 },
+                         { 2, 9 },
+                         { 3, 3 },
+                         { 5, 4 },
+                         { 65, 3 },
+                         { 33, 34 },
+                         { 130, 70 } }) {
         const int width = w, height = h;
         all.push_back(make("scene " + std::to_string(w) + "x" + std::to_string(h), w, h,
                            [=](int x, int y) { return scene(x, y, width, height); }));

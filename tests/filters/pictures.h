@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <OpenImageIO/imagebuf.h>
 #include <gtest/gtest.h>
+#include <OpenImageIO/imagebuf.h>
 
 #include <pimg/types.h>
 
@@ -30,8 +30,8 @@ inline OIIO::ImageBuf picture(int width, int height, int channels, OIIO::TypeDes
 }
 
 /// An HDR scene of about 14 stops: shade, a bright window with a soft edge, a lamp, texture; linear RGB.
-inline OIIO::ImageBuf hdr_scene(int width = 96, int height = 64, OIIO::TypeDesc type = OIIO::TypeFloat, int channels = 3,
-                                float scale = 1.0f)
+inline OIIO::ImageBuf hdr_scene(int width = 96, int height = 64, OIIO::TypeDesc type = OIIO::TypeFloat,
+                                int channels = 3, float scale = 1.0f)
 {
     OIIO::ImageBuf buf = picture(width, height, channels, type, 5, -2);
     std::vector<float> pixel(std::size_t(channels), 0.25f);

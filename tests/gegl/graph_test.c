@@ -11,10 +11,11 @@ enum { width = 400, height = 300 };
 static GeglBuffer* picture(float brightness)
 {
     GeglBuffer* buffer = gegl_buffer_new(GEGL_RECTANGLE(0, 0, width, height), babl_format("RGBA float"));
-    float* pixels = g_new(float, width * height * 4);
+    float* pixels = g_new(float, width* height * 4);
     for (int i = 0; i < width * height; ++i) {
         const int x = i % width, y = i / width;
-        const float light = brightness * (x > 250 && y < 150 ? 80.0f : 0.2f) * (1.0f + 0.1f * (float)((x * 31 + y * 17) % 97) / 97.0f);
+        const float light =
+            brightness * (x > 250 && y < 150 ? 80.0f : 0.2f) * (1.0f + 0.1f * (float)((x * 31 + y * 17) % 97) / 97.0f);
         for (int c = 0; c < 3; ++c)
             pixels[4 * i + c] = light * (1.0f - 0.1f * (float)c);
         pixels[4 * i + 3] = 1.0f;
@@ -26,7 +27,8 @@ static GeglBuffer* picture(float brightness)
 
 static GeglNode* new_filter(GeglNode* graph, GeglNode* source, double beta)
 {
-    GeglNode* node = gegl_node_new_child(graph, "operation", "pimg:hdr-compress", "fit", FALSE, "s0", 0.3, "beta", beta, NULL);
+    GeglNode* node =
+        gegl_node_new_child(graph, "operation", "pimg:hdr-compress", "fit", FALSE, "s0", 0.3, "beta", beta, NULL);
     gegl_node_link(source, node);
     return node;
 }

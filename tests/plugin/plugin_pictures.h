@@ -37,7 +37,10 @@ inline Picture noise(const ImageSpec& spec)
 }
 
 /// A smooth function of the position, 0..1.
-inline float slope_at(float x, float y, int channel) { return 0.1f + x / 1000 + y / 2000 + 0.1f * float(channel); }
+inline float slope_at(float x, float y, int channel)
+{
+    return 0.1f + x / 1000 + y / 2000 + 0.1f * float(channel);
+}
 
 inline Picture slope(const ImageSpec& spec)
 {

@@ -37,7 +37,8 @@ TEST(Plugin, ReturnsEverySampleOfEveryType)
     for (const TypeDesc type : { TypeDesc::UINT8, TypeDesc::UINT16, TypeDesc::UINT32, TypeDesc::HALF, TypeDesc::FLOAT })
         for (const int channels : { 1, 2, 3, 4, 5, 9 })
             for (const auto& [width, height] : { std::pair(1, 1), { 1, 7 }, { 9, 1 }, { 2, 2 }, { 33, 31 } }) {
-                SCOPED_TRACE(testing::Message() << type.c_str() << " x " << channels << ", " << width << " x " << height);
+                SCOPED_TRACE(testing::Message()
+                             << type.c_str() << " x " << channels << ", " << width << " x " << height);
                 const Picture picture = noise(ImageSpec(width, height, channels, type));
                 write(picture, "types.pimg");
                 expect_same(picture, *open("types.pimg"));
@@ -250,7 +251,8 @@ TEST(Plugin, ReadsPartsInAnyOrder)
     // Channels [1, 4) of some scanlines, into a buffer with gaps.
     constexpr std::size_t kPixel = 40, kRow = 300 * kPixel + 24;
     std::vector<std::uint8_t> gaps(kRow * 270, 0xee);
-    ASSERT_TRUE(in->read_scanlines(0, 0, spec.y + 250, spec.y + 262, 0, 1, 4, TypeDesc::FLOAT, gaps.data(), kPixel, kRow));
+    ASSERT_TRUE(
+        in->read_scanlines(0, 0, spec.y + 250, spec.y + 262, 0, 1, 4, TypeDesc::FLOAT, gaps.data(), kPixel, kRow));
     std::vector<float> all(300 * 270 * 5);
     ASSERT_TRUE(in->read_image(0, 0, 0, 5, TypeDesc::FLOAT, all.data()));
     for (std::size_t y = 250; y < 262; ++y)
@@ -305,11 +307,11 @@ TEST(Plugin, CanBeReopenedAndClosedTwice)
 TEST(Plugin, WriterIsAsGoodAsItsWord)
 {
     const auto out = OIIO::ImageOutput::create("word.pimg");
-    for (const char* can : { "tiles", "alpha", "nchannels", "channelformats", "displaywindow", "origin", "negativeorigin",
-                             "ioproxy", "arbitrary_metadata", "random_access" })
+    for (const char* can : { "tiles", "alpha", "nchannels", "channelformats", "displaywindow", "origin",
+                             "negativeorigin", "ioproxy", "arbitrary_metadata", "random_access" })
         EXPECT_TRUE(out->supports(can)) << can;
-    for (const char* cannot : { "rectangles", "volumes", "deepdata", "multiimage", "appendsubimage", "mipmap", "thumbnail",
-                                "procedural", "empty", "rewrite" })
+    for (const char* cannot : { "rectangles", "volumes", "deepdata", "multiimage", "appendsubimage", "mipmap",
+                                "thumbnail", "procedural", "empty", "rewrite" })
         EXPECT_FALSE(out->supports(cannot)) << cannot;
     const Picture picture = slope(ImageSpec(8, 8, 1, TypeDesc::UINT8));
     ASSERT_TRUE(out->open("word.pimg", picture.spec));
@@ -379,7 +381,7 @@ TEST(Plugin, LeavesNoFileBehindHalfAPicture)
 /// A disk with room for a hundred bytes.
 class SmallDisk final : public OIIO::Filesystem::IOProxy {
 public:
-    SmallDisk() : IOProxy("small", Write) {}
+    SmallDisk() : IOProxy("small", Write) { }
     const char* proxytype() const override { return "small"; }
     std::size_t write(const void*, std::size_t size) override { return std::min<std::size_t>(size, 100); }
 };

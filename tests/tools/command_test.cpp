@@ -6,8 +6,8 @@
 #include <fstream>
 #include <set>
 
-#include <OpenImageIO/strutil.h>
 #include <gtest/gtest.h>
+#include <OpenImageIO/strutil.h>
 
 #include "help.h"
 #include "sequence.h"
@@ -123,8 +123,10 @@ TEST_F(CommandLine, NamesUnknownAndUnfinishedKeys)
 {
     for (const Command* command : commands_with_keys()) {
         const std::string name = command->name;
-        for (const auto& [suffix, word] : { std::pair(":size=3", "expected"), { ":size", "key=value" },
-                                            { ":=3", "key=value" }, { ":", "key=value" } })
+        for (const auto& [suffix, word] : { std::pair(":size=3", "expected"),
+                                            { ":size", "key=value" },
+                                            { ":=3", "key=value" },
+                                            { ":", "key=value" } })
             expect_error(with_words(*command, name + suffix), { command->name, word });
         expect_error(with_words(*command, name + ":size=3"), { "\"size\"" });
     }
@@ -244,9 +246,14 @@ TEST(Help, ManualAndCompletionShowIt)
 TEST(Sequence, NamesOfFrames)
 {
     const Frame frame { 12, "left", true }, view { 0, "right", false };
-    for (const auto& [pattern, name] :
-         { std::pair("a.#.exr", "a.0012.exr"), { "a.@@@.exr", "a.012.exr" }, { "a.@", "a.12" }, { "a%04d.b", "a0012.b" },
-           { "a%d", "a12" }, { "%V/a.%v.##.exr", "left/a.l.00000012.exr" }, { "100%", "100%" }, { "a%x", "a%x" } })
+    for (const auto& [pattern, name] : { std::pair("a.#.exr", "a.0012.exr"),
+                                         { "a.@@@.exr", "a.012.exr" },
+                                         { "a.@", "a.12" },
+                                         { "a%04d.b", "a0012.b" },
+                                         { "a%d", "a12" },
+                                         { "%V/a.%v.##.exr", "left/a.l.00000012.exr" },
+                                         { "100%", "100%" },
+                                         { "a%x", "a%x" } })
         EXPECT_EQ(for_frame(pattern, frame), name) << pattern;
     EXPECT_EQ(for_frame("a.#.%V.%04d", view), "a.#.right.%04d");
     EXPECT_EQ(for_frame("a.#", { -3, "", true }), "a.-0003");

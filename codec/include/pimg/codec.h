@@ -73,19 +73,19 @@ struct Plane {
 std::vector<ConstPlane> interleaved(const PictureDesc& desc, const void* pixels);
 std::vector<Plane> interleaved(const PictureDesc& desc, void* pixels);
 
-// ---------------------------------------------------------------------------------------------------------------- write
+// ---- write ----------------------------------------------------------------------------------------------------------
 
 enum class Profile : std::uint8_t { compact = 0, full = 1 };
 
 struct EncodeOptions {
     Profile profile = Profile::compact;
     float vertices = 0.0125f;  ///< share of the pixels that become vertices of the mesh layer, 0 .. 0.3
-    int effort = 1;           ///< 0 quick (one predictor for all tiles), 1 normal, 2 tries everything
-    std::uint32_t tile = 256; ///< side of the raster tiles, 16 .. 1024
-    /// Positions of a stored hierarchy are moved onto multiples of 2^shift / 64 pixels; 0 keeps them as they are. -1: 0, but 2 for
-    /// a single 8-bit channel.
+    int effort = 1;            ///< 0 quick (one predictor for all tiles), 1 normal, 2 tries everything
+    std::uint32_t tile = 256;  ///< side of the raster tiles, 16 .. 1024
+    /// Positions of a stored hierarchy are moved onto multiples of 2^shift / 64 pixels; 0 keeps them as they are. -1:
+    /// 0, but 2 for a single 8-bit channel.
     int lattice_shift = -1;
-    bool hash = true;         ///< store the hash of the samples
+    bool hash = true;  ///< store the hash of the samples
     /// A hierarchy of this very picture (width, height), built with any guide; nullptr: built here on luma.
     const Hierarchy* hierarchy = nullptr;
     ParallelFor parallel;  ///< the bytes do not depend on it
@@ -102,16 +102,16 @@ struct EncodeStats {
 Status encode(const PictureDesc& desc, const std::vector<ConstPlane>& samples, const EncodeOptions& options,
               std::vector<std::uint8_t>& file, EncodeStats* stats = nullptr);
 
-// ----------------------------------------------------------------------------------------------------------------- read
+// ---- read -----------------------------------------------------------------------------------------------------------
 
 /// What a reader is ready to spend; checked before anything is allocated.
 struct DecodeLimits {
     std::uint32_t side = 1u << 20;
     std::uint64_t pixels = 1ull << 31;
     std::uint32_t channels = 1024;
-    std::uint64_t sample_bytes = 32ull << 30;    ///< of the whole picture
-    std::uint64_t attribute_bytes = 64ull << 20; ///< of all attributes, unpacked
-    bool check_crc = true;                       ///< false only to let fuzzers past the checksums
+    std::uint64_t sample_bytes = 32ull << 30;     ///< of the whole picture
+    std::uint64_t attribute_bytes = 64ull << 20;  ///< of all attributes, unpacked
+    bool check_crc = true;                        ///< false only to let fuzzers past the checksums
 };
 
 /// Random access to the bytes of a file. read() is called from several threads at once if the Decoder is.
@@ -136,11 +136,11 @@ struct ChunkInfo {
 
 /// What a read found.
 struct ReadInfo {
-    bool exact = false;             ///< all tiles were there: the samples are those written
-    bool hash_checked = false;      ///< ... and their hash was compared
-    std::uint32_t tiles = 0;        ///< raster tiles found, the others show the mesh layer
-    std::uint32_t vertices = 0;     ///< vertices of the mesh layer found
-    std::uint64_t bytes = 0;        ///< length of the file up to the last whole chunk
+    bool exact = false;          ///< all tiles were there: the samples are those written
+    bool hash_checked = false;   ///< ... and their hash was compared
+    std::uint32_t tiles = 0;     ///< raster tiles found, the others show the mesh layer
+    std::uint32_t vertices = 0;  ///< vertices of the mesh layer found
+    std::uint64_t bytes = 0;     ///< length of the file up to the last whole chunk
 };
 
 /// Reads one file. After open() all methods are const and may be called from several threads at once.
@@ -157,8 +157,8 @@ public:
 
     const PictureDesc& desc() const;
     Profile profile() const;
-    std::uint32_t tile() const;          ///< side of the raster tiles
-    std::uint64_t sample_hash() const;   ///< XXH64 of the samples (docs/format.md), 0 when not stored
+    std::uint32_t tile() const;         ///< side of the raster tiles
+    std::uint64_t sample_hash() const;  ///< XXH64 of the samples (docs/format.md), 0 when not stored
 
     /// Every chunk present, by a walk over the chunk headers.
     Status chunks(std::vector<ChunkInfo>& list) const;
@@ -168,8 +168,8 @@ public:
     /// One plane per channel over the data window.
     Status read(const std::vector<Plane>& samples, ReadInfo* info = nullptr, const ParallelFor& parallel = {}) const;
 
-    /// The tile whose upper left pixel is (tile() * column, tile() * row) of the data window, cut at its right and lower
-    /// edges; planes point at the tile's first pixel. As exact or coarse as read() would give.
+    /// The tile whose upper left pixel is (tile() * column, tile() * row) of the data window, cut at its right and
+    /// lower edges; planes point at the tile's first pixel. As exact or coarse as read() would give.
     Status read_tile(std::uint32_t column, std::uint32_t row, const std::vector<Plane>& samples) const;
 
     /// The picture as the first `share` (0 .. 1] of the mesh layer's vertices show it, sampled at the centres of a
@@ -180,10 +180,10 @@ public:
     /// Whether the whole hierarchy is in the file.
     bool has_hierarchy() const;
 
-    /// The hierarchy (`full` profile) and, from the same pass, the bands of any channels on it. `samples` are those read()
-    /// gave; each of `channels` holds one finite value per mesh pixel (to_mesh_pixels()), usually made from them.
-    /// Equal to the hierarchy that was written but for the order of the splits inside a batch (a few percent of the
-    /// vertices of that level), and costs, which are those of the batch.
+    /// The hierarchy (`full` profile) and, from the same pass, the bands of any channels on it. `samples` are those
+    /// read() gave; each of `channels` holds one finite value per mesh pixel (to_mesh_pixels()), usually made from
+    /// them. Equal to the hierarchy that was written but for the order of the splits inside a batch (a few percent of
+    /// the vertices of that level), and costs, which are those of the batch.
     Status read_hierarchy(const std::vector<ConstPlane>& samples, const std::vector<const float*>& channels,
                           Hierarchy& hierarchy, std::vector<Bands>& bands) const;
 

@@ -92,10 +92,19 @@ private:
 };
 
 /// The same for signed numbers: 0, -1, 1, -2, 2 ...
-inline std::uint32_t fold(std::int32_t v) { return std::uint32_t(v) << 1 ^ std::uint32_t(v >> 31); }
-inline std::int32_t unfold(std::uint32_t v) { return std::int32_t(v >> 1 ^ (0u - (v & 1))); }
+inline std::uint32_t fold(std::int32_t v)
+{
+    return std::uint32_t(v) << 1 ^ std::uint32_t(v >> 31);
+}
+inline std::int32_t unfold(std::uint32_t v)
+{
+    return std::int32_t(v >> 1 ^ (0u - (v & 1)));
+}
 
 /// Bits needed to write v: 0 for 0.
-inline int bit_length(std::uint32_t v) { return v == 0 ? 0 : 32 - __builtin_clz(v); }
+inline int bit_length(std::uint32_t v)
+{
+    return v == 0 ? 0 : 32 - __builtin_clz(v);
+}
 
 }  // namespace pimg

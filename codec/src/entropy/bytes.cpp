@@ -124,7 +124,7 @@ std::uint32_t crc32(std::uint32_t crc, const void* data, std::size_t size)
     for (; size >= 8; size -= 8, p += 8) {
         const std::uint32_t a = load_u32(p) ^ crc, b = load_u32(p + 4);
         crc = t[7][a & 255] ^ t[6][a >> 8 & 255] ^ t[5][a >> 16 & 255] ^ t[4][a >> 24] ^ t[3][b & 255]
-              ^ t[2][b >> 8 & 255] ^ t[1][b >> 16 & 255] ^ t[0][b >> 24];
+            ^ t[2][b >> 8 & 255] ^ t[1][b >> 16 & 255] ^ t[0][b >> 24];
     }
     for (; size > 0; --size, ++p)
         crc = t[0][(crc ^ *p) & 255] ^ (crc >> 8);
@@ -148,7 +148,7 @@ std::uint64_t hash_round(std::uint64_t lane, std::uint64_t input)
 
 }  // namespace
 
-SampleHash::SampleHash() : m_lane { kPrime[0] + kPrime[1], kPrime[1], 0, 0 - kPrime[0] }, m_rest {} {}
+SampleHash::SampleHash() : m_lane { kPrime[0] + kPrime[1], kPrime[1], 0, 0 - kPrime[0] }, m_rest {} { }
 
 void SampleHash::add(const std::uint8_t* data, std::size_t size)
 {

@@ -11,7 +11,10 @@ namespace pimg {
 
 using Bytes = std::vector<std::uint8_t>;
 
-inline void put_u8(Bytes& out, std::uint32_t v) { out.push_back(std::uint8_t(v)); }
+inline void put_u8(Bytes& out, std::uint32_t v)
+{
+    out.push_back(std::uint8_t(v));
+}
 void put_u16(Bytes& out, std::uint32_t v);
 void put_u32(Bytes& out, std::uint32_t v);
 void put_u64(Bytes& out, std::uint64_t v);
@@ -36,8 +39,8 @@ inline std::uint64_t load_u64(const std::uint8_t* p)
 /// parser may read a whole structure and ask once.
 class ByteReader {
 public:
-    ByteReader(const std::uint8_t* data, std::size_t size) : m_data(data), m_size(size) {}
-    explicit ByteReader(const Bytes& bytes) : ByteReader(bytes.data(), bytes.size()) {}
+    ByteReader(const std::uint8_t* data, std::size_t size) : m_data(data), m_size(size) { }
+    explicit ByteReader(const Bytes& bytes) : ByteReader(bytes.data(), bytes.size()) { }
 
     std::uint32_t u8();
     std::uint32_t u16();

@@ -76,9 +76,8 @@ std::vector<Context> join_classes(const std::vector<Histogram>& classes)
     for (std::size_t i = 0; i + 1 < contexts.size(); ++i)
         measure(i);
     while (contexts.size() > 1) {
-        const std::size_t best
-            = std::size_t(std::max_element(saving.begin(), saving.begin() + std::ptrdiff_t(contexts.size()) - 1)
-                          - saving.begin());
+        const std::size_t best = std::size_t(
+            std::max_element(saving.begin(), saving.begin() + std::ptrdiff_t(contexts.size()) - 1) - saving.begin());
         if (saving[best] < 0 && contexts.size() <= kMaxContexts)
             break;
         Histogram h = joined(best);
@@ -121,8 +120,7 @@ std::array<std::uint32_t, kTokens> frequencies(const Histogram& h)
 
 constexpr std::uint32_t kLengthModels = kProbabilityBits + 2;
 
-Bytes write_tables(const std::vector<Context>& contexts,
-                   const std::vector<std::array<std::uint32_t, kTokens>>& tables)
+Bytes write_tables(const std::vector<Context>& contexts, const std::vector<std::array<std::uint32_t, kTokens>>& tables)
 {
     BinaryWriter out;
     NumberModel model[kLengthModels];
@@ -290,7 +288,7 @@ bool SymbolReader::finished() const
 {
     const SymbolCursor& c = m_cursor;
     return c.word == c.word_count && c.state[0] == kStateLow && c.state[1] == kStateLow && c.bit <= c.raw_size * 8
-           && c.raw_size * 8 - c.bit < 8;
+        && c.raw_size * 8 - c.bit < 8;
 }
 
 }  // namespace pimg

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Static range coder (rANS, Duda 2013) for what is large: raster residuals and the collapse sequence. Every number comes
-// with a class the reader already knows (how busy it is there). Neighbouring classes are joined into contexts, as many
-// as pay for their tables.
+// Static range coder (rANS, Duda 2013) for what is large: raster residuals and the collapse sequence. Every number
+// comes with a class the reader already knows (how busy it is there). Neighbouring classes are joined into contexts, as
+// many as pay for their tables.
 #pragma once
 
 #include <array>

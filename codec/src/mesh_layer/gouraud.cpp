@@ -122,8 +122,9 @@ void fill(const Mesh& mesh, const std::vector<Triangle>& triangles, const std::v
             const std::int64_t to = std::min<std::int64_t>(s.last, xs.back());
             if (from > to)
                 continue;
-            std::size_t i = dense ? std::size_t(from - xs.front())
-                                  : std::size_t(std::lower_bound(xs.begin(), xs.end(), std::int32_t(from)) - xs.begin());
+            std::size_t i = dense
+                ? std::size_t(from - xs.front())
+                : std::size_t(std::lower_bound(xs.begin(), xs.end(), std::int32_t(from)) - xs.begin());
             std::int32_t* out = samples + row * xs.size();
             const std::int64_t start = plane.start + plane.per_y * ys[row];
             for (; i < xs.size() && xs[i] <= to; ++i) {

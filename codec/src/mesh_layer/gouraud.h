@@ -41,7 +41,8 @@ struct SamplePoints {
     std::vector<std::int32_t> xs, ys;
     static SamplePoints rectangle(std::uint32_t x, std::uint32_t y, std::uint32_t width, std::uint32_t height);
     /// width x height points spread over extent_x x extent_y pixels.
-    static SamplePoints spread(std::uint32_t extent_x, std::uint32_t extent_y, std::uint32_t width, std::uint32_t height);
+    static SamplePoints spread(std::uint32_t extent_x, std::uint32_t extent_y, std::uint32_t width,
+                               std::uint32_t height);
 };
 
 /// Values of one channel at the sample points, row-major. Where triangles meet, the last in order counts. `numbers`

@@ -45,7 +45,9 @@ bool on_a_side(Point a, Point b, Point extent)
 /// ghost, edges on the sides; without a ghost, no side touched.
 bool is_fan_ok(const CanonicalRing& ring, int from, int count, Point p, Point other, Point extent)
 {
-    const auto place = [&](int k) { return (from + k) % ring.degree; };
+    const auto place = [&](int k) {
+        return (from + k) % ring.degree;
+    };
     bool ghost = false;
     for (int k = 0; k <= count + 1; ++k) {
         const bool a_is_other = k == count + 1, b_is_other = k == count;
@@ -76,7 +78,7 @@ bool is_split_ok(const Mesh& mesh, const CanonicalRing& ring, const LayerSplit& 
     if ((s.x == 0 || s.x == extent.x) && (s.y == 0 || s.y == extent.y) && split.t != s && split.u != s)
         return false;
     return is_fan_ok(ring, split.vr, right_to_left, split.t, split.u, extent)
-           && is_fan_ok(ring, split.vl, left_to_right, split.u, split.t, extent);
+        && is_fan_ok(ring, split.vl, left_to_right, split.u, split.t, extent);
 }
 
 IntegerStencil integer_stencil(Point p, Point s, const CanonicalRing& ring, int start)
@@ -117,7 +119,9 @@ AdaptiveBit& flag_model(MeshModels& models, const MeshLayerHead& head, const Can
 
 Status MeshLayerReader::read_base(const std::uint8_t* data, std::size_t size)
 {
-    const auto bad = [] { return Status::failure("pimg: the base mesh is damaged"); };
+    const auto bad = [] {
+        return Status::failure("pimg: the base mesh is damaged");
+    };
     ByteReader bytes(data, size);
     m_head.lattice_shift = bytes.u8();
     if (m_head.lattice_shift > 6)
@@ -174,12 +178,10 @@ bool MeshLayerReader::read_split(BinaryReader& in, Index s)
     const CanonicalRing ring(m_layer.mesh, s);
     LayerSplit split;
     split.s = s;
-    if (!code_geometry(io, m_models, m_head, m_layer.mesh, ring, split)
-        || !is_split_ok(m_layer.mesh, ring, split))
+    if (!code_geometry(io, m_models, m_head, m_layer.mesh, ring, split) || !is_split_ok(m_layer.mesh, ring, split))
         return false;
     code_values(io, m_models, m_head, m_layer, ring, split, nullptr);
-    if (in.overrun()
-        || !m_layer.mesh.split(s, ring.vertex[split.vl], ring.vertex[split.vr], split.t, split.u))
+    if (in.overrun() || !m_layer.mesh.split(s, ring.vertex[split.vl], ring.vertex[split.vr], split.t, split.u))
         return false;
     for (int k = 0; k < ring.degree; ++k)
         if (ring.vertex[k] != kGhost)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mesh layer of a file: base mesh, then batches of vertex splits, coarse to fine. A batch goes through the vertices in
-// order of their numbers and says of each whether it is split; all references are relative to the ring of the
+// The mesh layer of a file: base mesh, then batches of vertex splits, coarse to fine. A batch goes through the vertices
+// in order of their numbers and says of each whether it is split; all references are relative to the ring of the
 // vertex, so that no file can name a vertex that is not there.
 #pragma once
 
@@ -24,13 +24,13 @@ constexpr Index kSparsestBatch = 256;
 
 /// Constants of one mesh layer.
 struct MeshLayerHead {
-    std::uint32_t lattice_shift = 4;             ///< positions are multiples of 2^shift lattice units, 0 .. 6
-    std::vector<std::uint32_t> value_shifts;     ///< details are multiples of 2^shift, 0 .. 17, per channel
+    std::uint32_t lattice_shift = 4;          ///< positions are multiples of 2^shift lattice units, 0 .. 6
+    std::vector<std::uint32_t> value_shifts;  ///< details are multiples of 2^shift, 0 .. 17, per channel
 };
 
 /// Adaptive models; they live as long as the layer is read or written.
 struct MeshModels {
-    explicit MeshModels(std::size_t channels) : detail(channels * 8) {}
+    explicit MeshModels(std::size_t channels) : detail(channels * 8) { }
     AdaptiveBit flag[64];
     NumberModel vr[17], vl[17];
     NumberModel edge[2][64], middle[2][64];
@@ -70,7 +70,9 @@ IntegerStencil integer_stencil(Point p, Point s, const CanonicalRing& ring, int 
 class MeshLayerReader {
 public:
     MeshLayerReader(Point extent, std::size_t channels, std::uint64_t max_vertices)
-        : m_extent(extent), m_max_vertices(max_vertices), m_models(channels)
+        : m_extent(extent),
+          m_max_vertices(max_vertices),
+          m_models(channels)
     {
         m_layer.values.resize(channels);
     }
@@ -99,13 +101,14 @@ template<class Io>
 void code_values(Io& io, MeshModels& models, const MeshLayerHead& head, MeshLayer& layer, const CanonicalRing& ring,
                  const LayerSplit& split, const float* targets);
 /// Model of the flag that says whether v is split.
-AdaptiveBit& flag_model(MeshModels& models, const MeshLayerHead& head, const CanonicalRing& ring, Point p, bool touched);
+AdaptiveBit& flag_model(MeshModels& models, const MeshLayerHead& head, const CanonicalRing& ring, Point p,
+                        bool touched);
 
 /// Chunks of a mesh layer: the first is the base, the others hold batches.
 struct MeshLayerChunks {
     Bytes base;
     std::vector<Bytes> batches;
-    MeshLayer layer;                            ///< as a reader will have it
+    MeshLayer layer;  ///< as a reader will have it
 };
 
 /// The first splits of a hierarchy, up to `vertices` vertices, with the bands of each channel in mesh values.

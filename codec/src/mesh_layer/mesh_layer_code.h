@@ -76,8 +76,8 @@ bool code_geometry(Io& io, MeshModels& models, const MeshLayerHead& head, const 
     return lattice(tx, ty, split.t) && lattice(tx + dx, ty + dy, split.u);
 }
 
-/// Appends the values of u and replaces those of s by t's. `targets` are, when writing, the wanted values of t and u of each
-/// channel in turn.
+/// Appends the values of u and replaces those of s by t's. `targets` are, when writing, the wanted values of t and u of
+/// each channel in turn.
 template<class Io>
 void code_values(Io& io, MeshModels& models, const MeshLayerHead& head, MeshLayer& layer, const CanonicalRing& ring,
                  const LayerSplit& split, const float* targets)
@@ -95,8 +95,7 @@ void code_values(Io& io, MeshModels& models, const MeshLayerHead& head, MeshLaye
             std::int32_t detail = 0;
             if constexpr (Io::kWriting)
                 detail = std::int32_t(std::lround(std::ldexp(targets[2 * c + k] - float(predicted), -int(shift))));
-            const std::uint32_t folded
-                = io.number(models.detail[8 * c + 4 * k + std::size_t(before[k])], fold(detail));
+            const std::uint32_t folded = io.number(models.detail[8 * c + 4 * k + std::size_t(before[k])], fold(detail));
             before[k] = std::min(3, bit_length(folded) / 2);
             const std::int64_t value = predicted + std::int64_t(unfold(folded)) * (1 << shift);
             fine[k] = std::int32_t(std::clamp<std::int64_t>(value, kMeshValueLow, kMeshValueHigh));

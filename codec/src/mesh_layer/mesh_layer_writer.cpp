@@ -75,8 +75,7 @@ BatchOrder order_splits(const Hierarchy& h, Level count, const std::vector<std::
             const Index s = number[h.splits[i].s];
             bool ready = s != kUnknown;
             for (Level need : needs[i])
-                ready = ready && batch_of[need] != 0
-                        && (batch_of[need] < batch || number[h.splits[need].s] < s);
+                ready = ready && batch_of[need] != 0 && (batch_of[need] < batch || number[h.splits[need].s] < s);
             (ready ? now : later).push_back(i);
             if (ready)
                 batch_of[i] = batch;
@@ -98,7 +97,7 @@ BatchOrder order_splits(const Hierarchy& h, Level count, const std::vector<std::
 /// Renumbers the splits of the file and moves their positions onto the lattice.
 class GeometryPlan {
 public:
-    GeometryPlan(const Hierarchy& h, const BatchOrder& order) : m_hierarchy(h), m_order(order) {}
+    GeometryPlan(const Hierarchy& h, const BatchOrder& order) : m_hierarchy(h), m_order(order) { }
 
     /// False when some split has no place on the lattice; the plan then ends with the batch before it.
     bool make(std::uint32_t lattice_shift);
@@ -119,13 +118,16 @@ bool GeometryPlan::place(const Mesh& mesh, const CanonicalRing& ring, std::uint3
         return Point { (in_steps(p.x, shift) + dx) * (1 << shift), (in_steps(p.y, shift) + dy) * (1 << shift) };
     };
     // Nearest points first, then one step aside for either end.
-    constexpr int kNear[9][2] = { { 0, 0 }, { 1, 0 }, { -1, 0 }, { 0, 1 }, { 0, -1 }, { 1, 1 }, { -1, 1 }, { 1, -1 }, { -1, -1 } };
+    constexpr int kNear[9][2] = { { 0, 0 }, { 1, 0 },  { -1, 0 }, { 0, 1 },  { 0, -1 },
+                                  { 1, 1 }, { -1, 1 }, { 1, -1 }, { -1, -1 } };
     for (int sum = 0; sum <= 16; ++sum)
         for (int i = std::max(0, sum - 8); i <= std::min(sum, 8); ++i) {
             split.t = snapped(exact.t, kNear[i][0], kNear[i][1]);
             split.u = snapped(exact.u, kNear[sum - i][0], kNear[sum - i][1]);
             const Point e = mesh.extent();
-            const auto inside = [&](Point p) { return p.x >= 0 && p.y >= 0 && p.x <= e.x && p.y <= e.y; };
+            const auto inside = [&](Point p) {
+                return p.x >= 0 && p.y >= 0 && p.x <= e.x && p.y <= e.y;
+            };
             if (inside(split.t) && inside(split.u) && is_split_ok(mesh, ring, split))
                 return true;
         }
@@ -143,7 +145,9 @@ bool GeometryPlan::make(std::uint32_t lattice_shift)
     std::vector<Index> number(base + m_hierarchy.levels(), kGhost);
     for (Index v = 0; v < base; ++v)
         number[v] = v;
-    const auto renumber = [&](Index v) { return v == kGhost ? kGhost : number[v]; };
+    const auto renumber = [&](Index v) {
+        return v == kGhost ? kGhost : number[v];
+    };
     for (std::size_t i = 0; i < m_order.splits.size(); ++i) {
         const Split& exact = m_hierarchy.splits[m_order.splits[i]];
         LayerSplit split;
@@ -230,8 +234,12 @@ Bytes write_base(const MeshLayerHead& head, const MeshLayer& layer)
 class BatchWriter {
 public:
     BatchWriter(const MeshLayerHead& head, MeshLayer& layer)
-        : m_head(head), m_layer(layer), m_models(layer.values.size()), m_touched(layer.mesh.size(), 0)
-    {}
+        : m_head(head),
+          m_layer(layer),
+          m_models(layer.values.size()),
+          m_touched(layer.mesh.size(), 0)
+    {
+    }
     /// Batches [first, last) of the plan as one chunk.
     bool write(const GeometryPlan& plan, const BatchOrder& order, const std::vector<float>& targets, std::size_t first,
                std::size_t last, Bytes& chunk);

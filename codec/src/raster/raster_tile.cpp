@@ -36,9 +36,9 @@ std::int64_t predict(std::int64_t w, std::int64_t n, std::int64_t nw, std::int64
         return (6 * w + 5 * n - 4 * nw + ne + 4) >> 3;
 }
 
-/// Visits the samples in row order with the prediction and the class of the residual to come. The class does not depend on
-/// the sample to the left: so a processor finds it while that one is still being decoded.
-/// visit(at, prediction, class) sets values[at] and returns the size of the residual.
+/// Visits the samples in row order with the prediction and the class of the residual to come. The class does not depend
+/// on the sample to the left: so a processor finds it while that one is still being decoded. visit(at, prediction,
+/// class) sets values[at] and returns the size of the residual.
 template<Shape shape, bool gouraud, class Visit>
 void walk(const TilePlane& t, Visit&& visit)
 {
@@ -98,10 +98,14 @@ void walk(const TilePlane& t, TilePredictor p, Visit&& visit)
             walk<decltype(shape)::value, false>(t, visit);
     };
     switch (p.shape) {
-    case Shape::none: return with(std::integral_constant<Shape, Shape::none>());
-    case Shape::left: return with(std::integral_constant<Shape, Shape::left>());
-    case Shape::median: return with(std::integral_constant<Shape, Shape::median>());
-    case Shape::mean: return with(std::integral_constant<Shape, Shape::mean>());
+    case Shape::none:
+        return with(std::integral_constant<Shape, Shape::none>());
+    case Shape::left:
+        return with(std::integral_constant<Shape, Shape::left>());
+    case Shape::median:
+        return with(std::integral_constant<Shape, Shape::median>());
+    case Shape::mean:
+        return with(std::integral_constant<Shape, Shape::mean>());
     }
 }
 
@@ -168,8 +172,9 @@ void write_tile_plane(const TilePlane& plane, TilePredictor predictor, Bytes& ou
         for (std::uint32_t v : residuals)
             put_u8(bytes, v >> (8 * k) & 255);
     const bool planar = zstd_pack(bytes.data(), bytes.size(), 6, packed) && packed.size() + 4 < coded.size();
-    put_u8(out, std::uint32_t(predictor.shape) | (predictor.gouraud ? 4u : 0u)
-                    | (planar ? std::uint32_t(kPlanes) : std::uint32_t(kSymbols)) << 4);
+    put_u8(out,
+           std::uint32_t(predictor.shape) | (predictor.gouraud ? 4u : 0u)
+               | (planar ? std::uint32_t(kPlanes) : std::uint32_t(kSymbols)) << 4);
     if (planar) {
         put_u8(out, std::uint32_t(planes));
         put_varint(out, packed.size());

@@ -9,11 +9,14 @@ namespace pimg {
 std::size_t size_of(SampleType type)
 {
     switch (type) {
-    case SampleType::uint8: return 1;
+    case SampleType::uint8:
+        return 1;
     case SampleType::uint16:
-    case SampleType::half: return 2;
+    case SampleType::half:
+        return 2;
     case SampleType::uint32:
-    case SampleType::float32: return 4;
+    case SampleType::float32:
+        return 4;
     }
     return 0;
 }
@@ -67,10 +70,14 @@ std::int32_t to_integer(SampleType type, std::uint32_t bits)
 {
     switch (type) {
     case SampleType::uint8:
-    case SampleType::uint16: return std::int32_t(bits);
-    case SampleType::uint32: return std::int32_t(bits ^ 0x80000000u);
-    case SampleType::half: return std::int16_t(bits & 0x8000u ? bits ^ 0x7fffu : bits);
-    case SampleType::float32: return std::int32_t(bits & 0x80000000u ? bits ^ 0x7fffffffu : bits);
+    case SampleType::uint16:
+        return std::int32_t(bits);
+    case SampleType::uint32:
+        return std::int32_t(bits ^ 0x80000000u);
+    case SampleType::half:
+        return std::int16_t(bits & 0x8000u ? bits ^ 0x7fffu : bits);
+    case SampleType::float32:
+        return std::int32_t(bits & 0x80000000u ? bits ^ 0x7fffffffu : bits);
     }
     return 0;
 }
@@ -79,11 +86,16 @@ std::uint32_t to_bits(SampleType type, std::int32_t integer)
 {
     const std::uint32_t bits = std::uint32_t(integer);
     switch (type) {
-    case SampleType::uint8: return bits & 0xffu;
-    case SampleType::uint16: return bits & 0xffffu;
-    case SampleType::uint32: return bits ^ 0x80000000u;
-    case SampleType::half: return (bits & 0x8000u ? bits ^ 0x7fffu : bits) & 0xffffu;
-    case SampleType::float32: return bits & 0x80000000u ? bits ^ 0x7fffffffu : bits;
+    case SampleType::uint8:
+        return bits & 0xffu;
+    case SampleType::uint16:
+        return bits & 0xffffu;
+    case SampleType::uint32:
+        return bits ^ 0x80000000u;
+    case SampleType::half:
+        return (bits & 0x8000u ? bits ^ 0x7fffu : bits) & 0xffffu;
+    case SampleType::float32:
+        return bits & 0x80000000u ? bits ^ 0x7fffffffu : bits;
     }
     return 0;
 }
@@ -101,7 +113,7 @@ void gather_plane(SampleType type, const ConstPlane& plane, std::uint32_t x0, st
 {
     for (std::uint32_t y = 0; y < height; ++y) {
         const auto* from = static_cast<const std::uint8_t*>(plane.data) + std::ptrdiff_t(y0 + y) * plane.y_stride
-                           + std::ptrdiff_t(x0) * plane.x_stride;
+            + std::ptrdiff_t(x0) * plane.x_stride;
         for (std::uint32_t x = 0; x < width; ++x, from += plane.x_stride) {
             T bits;
             std::memcpy(&bits, from, sizeof bits);
@@ -116,7 +128,7 @@ void scatter_plane(const std::int32_t* from, std::uint32_t width, std::uint32_t 
 {
     for (std::uint32_t y = 0; y < height; ++y) {
         auto* to = static_cast<std::uint8_t*>(plane.data) + std::ptrdiff_t(y0 + y) * plane.y_stride
-                   + std::ptrdiff_t(x0) * plane.x_stride;
+            + std::ptrdiff_t(x0) * plane.x_stride;
         for (std::uint32_t x = 0; x < width; ++x, to += plane.x_stride) {
             const T bits = T(to_bits(type, *from++));
             std::memcpy(to, &bits, sizeof bits);
@@ -128,12 +140,22 @@ void scatter_plane(const std::int32_t* from, std::uint32_t width, std::uint32_t 
 void range_of(SampleType type, std::int32_t& low, std::int32_t& high)
 {
     switch (type) {
-    case SampleType::uint8: low = 0, high = 255; break;
-    case SampleType::uint16: low = 0, high = 65535; break;
+    case SampleType::uint8:
+        low = 0, high = 255;
+        break;
+    case SampleType::uint16:
+        low = 0, high = 65535;
+        break;
     // An approximation need not show infinities and NaN.
-    case SampleType::half: low = -1 - 0x7bff, high = 0x7bff; break;
-    case SampleType::float32: low = -1 - 0x7f7fffff, high = 0x7f7fffff; break;
-    case SampleType::uint32: low = INT32_MIN, high = INT32_MAX; break;
+    case SampleType::half:
+        low = -1 - 0x7bff, high = 0x7bff;
+        break;
+    case SampleType::float32:
+        low = -1 - 0x7f7fffff, high = 0x7f7fffff;
+        break;
+    case SampleType::uint32:
+        low = INT32_MIN, high = INT32_MAX;
+        break;
     }
 }
 
@@ -151,16 +173,21 @@ Integers gather(const PictureDesc& desc, const std::vector<ConstPlane>& planes, 
         result.channels[c].resize(std::size_t(width) * height);
         std::int32_t* to = result.channels[c].data();
         switch (size_of(type)) {
-        case 1: gather_plane<std::uint8_t>(type, planes[c], x, y, width, height, to); break;
-        case 2: gather_plane<std::uint16_t>(type, planes[c], x, y, width, height, to); break;
-        default: gather_plane<std::uint32_t>(type, planes[c], x, y, width, height, to);
+        case 1:
+            gather_plane<std::uint8_t>(type, planes[c], x, y, width, height, to);
+            break;
+        case 2:
+            gather_plane<std::uint16_t>(type, planes[c], x, y, width, height, to);
+            break;
+        default:
+            gather_plane<std::uint32_t>(type, planes[c], x, y, width, height, to);
         }
     }
     return result;
 }
 
-void scatter(SampleType type, std::vector<std::int32_t>& integers, std::uint32_t width, std::uint32_t height, bool clamp,
-             const Plane& plane, std::uint32_t x, std::uint32_t y)
+void scatter(SampleType type, std::vector<std::int32_t>& integers, std::uint32_t width, std::uint32_t height,
+             bool clamp, const Plane& plane, std::uint32_t x, std::uint32_t y)
 {
     if (clamp) {
         std::int32_t low = 0, high = 0;
@@ -171,18 +198,34 @@ void scatter(SampleType type, std::vector<std::int32_t>& integers, std::uint32_t
     using S = SampleType;
     const std::int32_t* from = integers.data();
     switch (type) {
-    case S::uint8: scatter_plane<S::uint8, std::uint8_t>(from, width, height, plane, x, y); break;
-    case S::uint16: scatter_plane<S::uint16, std::uint16_t>(from, width, height, plane, x, y); break;
-    case S::half: scatter_plane<S::half, std::uint16_t>(from, width, height, plane, x, y); break;
-    case S::uint32: scatter_plane<S::uint32, std::uint32_t>(from, width, height, plane, x, y); break;
-    case S::float32: scatter_plane<S::float32, std::uint32_t>(from, width, height, plane, x, y); break;
+    case S::uint8:
+        scatter_plane<S::uint8, std::uint8_t>(from, width, height, plane, x, y);
+        break;
+    case S::uint16:
+        scatter_plane<S::uint16, std::uint16_t>(from, width, height, plane, x, y);
+        break;
+    case S::half:
+        scatter_plane<S::half, std::uint16_t>(from, width, height, plane, x, y);
+        break;
+    case S::uint32:
+        scatter_plane<S::uint32, std::uint32_t>(from, width, height, plane, x, y);
+        break;
+    case S::float32:
+        scatter_plane<S::float32, std::uint32_t>(from, width, height, plane, x, y);
+        break;
     }
 }
 
 namespace {
 
-std::int32_t add(std::int32_t a, std::int32_t b) { return std::int32_t(std::uint32_t(a) + std::uint32_t(b)); }
-std::int32_t subtract(std::int32_t a, std::int32_t b) { return std::int32_t(std::uint32_t(a) - std::uint32_t(b)); }
+std::int32_t add(std::int32_t a, std::int32_t b)
+{
+    return std::int32_t(std::uint32_t(a) + std::uint32_t(b));
+}
+std::int32_t subtract(std::int32_t a, std::int32_t b)
+{
+    return std::int32_t(std::uint32_t(a) - std::uint32_t(b));
+}
 
 }  // namespace
 
@@ -239,9 +282,9 @@ bool is_packed(const PictureDesc& desc, const std::vector<ConstPlane>& planes)
     bool packed = low == 1;
     for (std::size_t c = 0; c < planes.size(); ++c)
         packed = packed && planes[c].x_stride == std::ptrdiff_t(desc.pixel_bytes())
-                 && planes[c].y_stride == planes[0].y_stride
-                 && static_cast<const std::uint8_t*>(planes[c].data)
-                        == static_cast<const std::uint8_t*>(planes[0].data) + desc.offset_of(c);
+            && planes[c].y_stride == planes[0].y_stride
+            && static_cast<const std::uint8_t*>(planes[c].data)
+                == static_cast<const std::uint8_t*>(planes[0].data) + desc.offset_of(c);
     return packed;
 }
 
@@ -261,7 +304,8 @@ std::uint64_t hash_samples(const PictureDesc& desc, const std::vector<ConstPlane
     for (std::uint32_t y = 0; y < desc.data.height; ++y) {
         for (std::size_t c = 0; c < planes.size(); ++c) {
             const std::size_t bytes = size_of(desc.channels[c].type);
-            const auto* from = static_cast<const std::uint8_t*>(planes[c].data) + std::ptrdiff_t(y) * planes[c].y_stride;
+            const auto* from =
+                static_cast<const std::uint8_t*>(planes[c].data) + std::ptrdiff_t(y) * planes[c].y_stride;
             std::uint8_t* to = row.data() + desc.offset_of(c);
             for (std::uint32_t x = 0; x < desc.data.width; ++x, to += pixel, from += planes[c].x_stride) {
                 std::uint32_t bits = 0;

@@ -14,7 +14,7 @@
 namespace pimg {
 
 /// A ring in a cache line of its own.
-struct alignas(64) AlignedRing : Ring {};
+struct alignas(64) AlignedRing : Ring { };
 
 /// The ring that merging t and u leaves: from vr along t's side to vl (place `vl`), then along u's.
 struct Star {
@@ -34,8 +34,8 @@ public:
     Point extent() const { return { (m_width - 1) * kSubpixels, (m_height - 1) * kSubpixels }; }
     Index size() const { return Index(vertices.size()); }
     bool alive(Index v) const { return vertices[v].degree > 0; }
-    /// Keeps only these vertices (increasing, all that are alive) and numbers them anew, in the same order: what is still at work
-    /// lies together.
+    /// Keeps only these vertices (increasing, all that are alive) and numbers them anew, in the same order: what is
+    /// still at work lies together.
     void keep(const std::vector<Index>& survivors);
 
     /// False when t and u are no neighbours or merging them would break the mesh.
@@ -68,7 +68,7 @@ public:
 
     struct Vertex {
         Point at;
-        Index pixel;       ///< it began as
+        Index pixel;          ///< it began as
         std::int32_t degree;  ///< of its ring; 0: merged into another
     };
     std::vector<AlignedRing> rings;
@@ -78,7 +78,8 @@ private:
     int m_width, m_height;
 };
 
-/// Classes under which the position of s is coded, and whether its coordinates are coded at all (on a side they are known).
+/// Classes under which the position of s is coded, and whether its coordinates are coded at all (on a side they are
+/// known).
 struct CollapseClasses {
     std::uint32_t x, y;
     bool x_free, y_free;

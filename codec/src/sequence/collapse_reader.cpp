@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Repeats the collapse sequence: every collapse gives a split of the hierarchy and, from the same star, the coarse value of
-// every channel (the volume under the surface stays, see analyse()).
+// Repeats the collapse sequence: every collapse gives a split of the hierarchy and, from the same star, the coarse
+// value of every channel (the volume under the surface stays, see analyse()).
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -55,7 +55,9 @@ void volume_shares(const Star& star, Point t, Point u, VolumeShares& shares)
 Projection project_onto(const Star& star, Point s, Point p)
 {
     const std::int64_t px = p.x - s.x, py = p.y - s.y;
-    const auto side = [&](int i) { return (star.points[i].x - s.x) * py - (star.points[i].y - s.y) * px; };
+    const auto side = [&](int i) {
+        return (star.points[i].x - s.x) * py - (star.points[i].y - s.y) * px;
+    };
     Projection found { kGhost, kGhost, 0.0f, 0.0f };
     const std::int64_t first = side(0);
     std::int64_t b = first;
@@ -97,7 +99,7 @@ public:
     /// Walks through them in order.
     class Walk {
     public:
-        explicit Walk(const AliveSet& set) : m_words(set.m_words), m_rest(set.m_words.empty() ? 0 : set.m_words[0]) {}
+        explicit Walk(const AliveSet& set) : m_words(set.m_words), m_rest(set.m_words.empty() ? 0 : set.m_words[0]) { }
         /// Leaves `gap` of them out and gives the next; kGhost at the end.
         Index next(std::uint32_t gap)
         {
@@ -127,7 +129,8 @@ private:
 class SequenceReader {
 public:
     SequenceReader(int width, int height, const std::vector<const float*>& channels)
-        : m_mesh(std::max(width, 2), std::max(height, 2)), m_channels(channels)
+        : m_mesh(std::max(width, 2), std::max(height, 2)),
+          m_channels(channels)
     {
         m_h.width = width;
         m_h.height = height;
@@ -153,7 +156,7 @@ private:
     std::vector<Bands> m_bands;
     AliveSet m_alive;
     std::vector<Index> m_batch;  ///< t of each collapse of the batch at hand
-    std::vector<Index> m_born;  ///< u of each collapse
+    std::vector<Index> m_born;   ///< u of each collapse
     SymbolReader m_gap, m_choice, m_x, m_y;
     Star m_star;
     VolumeShares m_shares {};
@@ -182,8 +185,8 @@ void SequenceReader::read_diagonals(SymbolReader& in, const std::vector<std::int
     std::size_t quad = 0;
     for (int y = 0; y + 1 < height; ++y)
         for (int x = 0; x + 1 < width; ++x) {
-            const DiagonalGuess guess
-                = guess_diagonal(&guide[std::size_t(y) * std::size_t(width) + std::size_t(x)], width);
+            const DiagonalGuess guess =
+                guess_diagonal(&guide[std::size_t(y) * std::size_t(width) + std::size_t(x)], width);
             falling[quad++] = (in.next(guess.klass) & 1) ? !guess.falling : guess.falling;
         }
     m_mesh.connect(falling);
@@ -235,10 +238,12 @@ bool SequenceReader::read_collapse(Index t)
         return false;
     const Projection at_t = project_onto(star, s, pt);
     const Projection at_u = project_onto(star, s, pu);
-    const auto pixel = [&](Index v) { return v == kGhost ? kGhost : m_mesh.vertices[v].pixel; };
+    const auto pixel = [&](Index v) {
+        return v == kGhost ? kGhost : m_mesh.vertices[v].pixel;
+    };
     m_h.splits.push_back({ pixel(t), pixel(star.ring[star.vl]), pixel(star.ring[0]), pt, pu });
-    m_h.stencils.push_back({ pixel(t), pixel(at_t.a), pixel(at_t.b), pixel(at_u.a), pixel(at_u.b), at_t.wa, at_t.wb,
-                             at_u.wa, at_u.wb });
+    m_h.stencils.push_back(
+        { pixel(t), pixel(at_t.a), pixel(at_t.b), pixel(at_u.a), pixel(at_u.b), at_t.wa, at_t.wb, at_u.wa, at_u.wb });
     m_h.costs.push_back(m_cost);
     m_born.push_back(pixel(u));
     analyse_collapse(t, u);
@@ -298,7 +303,9 @@ bool SequenceReader::read_batch(ByteReader& heads)
 
 Status SequenceReader::read_chunk(ByteSpan chunk, const std::vector<std::int32_t>& guide, bool first)
 {
-    const auto bad = [] { return Status::failure("pimg: the hierarchy is damaged"); };
+    const auto bad = [] {
+        return Status::failure("pimg: the hierarchy is damaged");
+    };
     ByteReader in(chunk.data, chunk.size);
     m_shift = in.u8();
     const std::uint64_t batches = in.varint(), size = in.varint();
@@ -310,7 +317,8 @@ Status SequenceReader::read_chunk(ByteSpan chunk, const std::vector<std::int32_t
         return bad();
     const std::uint8_t* const initial = in.take(std::size_t(initial_size));
     SymbolReader diagonals;
-    if (!diagonals.open(in) || !m_gap.open(in) || !m_choice.open(in) || !m_x.open(in) || !m_y.open(in) || !in.finished())
+    if (!diagonals.open(in) || !m_gap.open(in) || !m_choice.open(in) || !m_x.open(in) || !m_y.open(in)
+        || !in.finished())
         return bad();
     if (first ? !read_start(initial, std::size_t(initial_size), diagonals, guide) : !diagonals.finished())
         return bad();
@@ -333,7 +341,9 @@ Status SequenceReader::finish(Hierarchy& h, std::vector<Bands>& bands)
     const Level levels = Level(m_born.size());
     for (Level i = 0; i < levels; ++i)
         number[m_born[i]] = base + levels - 1 - i;
-    const auto renumber = [&](Index v) { return v == kGhost ? kGhost : number[v]; };
+    const auto renumber = [&](Index v) {
+        return v == kGhost ? kGhost : number[v];
+    };
 
     std::reverse(m_h.splits.begin(), m_h.splits.end());
     std::reverse(m_h.stencils.begin(), m_h.stencils.end());

@@ -29,8 +29,9 @@ std::vector<std::int32_t> diagonal_guide(const PictureDesc& desc, const std::vec
         for (std::uint32_t x = 0; x < width; ++x) {
             const std::size_t at = std::size_t(std::min(y, in.height - 1)) * in.width + std::min(x, in.width - 1);
             const std::int32_t first = in.channels[0][at] >> shift;
-            guide.push_back(colour ? 54 * first + 183 * (in.channels[1][at] >> shift) + 19 * (in.channels[2][at] >> shift)
-                                   : 256 * first);
+            guide.push_back(colour
+                                ? 54 * first + 183 * (in.channels[1][at] >> shift) + 19 * (in.channels[2][at] >> shift)
+                                : 256 * first);
         }
     return guide;
 }
@@ -64,8 +65,8 @@ void CollapseMesh::connect(const std::vector<std::uint8_t>& falling)
                     ghost = true;
                     continue;
                 }
-                const std::size_t quad
-                    = std::size_t(std::min(y, qy)) * std::size_t(m_width - 1) + std::size_t(std::min(x, qx));
+                const std::size_t quad =
+                    std::size_t(std::min(y, qy)) * std::size_t(m_width - 1) + std::size_t(std::min(x, qx));
                 if ((k & 1) && (falling[quad] != 0) != (kStepX[k] == kStepY[k]))
                     continue;
                 ring.v[std::size_t(degree++)] = Index(std::size_t(qy) * std::size_t(m_width) + std::size_t(qx));
@@ -198,7 +199,7 @@ Index CollapseMesh::candidate(Index t, std::uint32_t choice) const
 CollapseClasses collapse_classes(Point t, Point u, Point extent)
 {
     const std::uint32_t dx = std::uint32_t(std::abs(t.x - u.x)), dy = std::uint32_t(std::abs(t.y - u.y));
-    const std::uint32_t size = std::min<std::uint32_t>(class_of(std::max(dx, dy)) , 31);
+    const std::uint32_t size = std::min<std::uint32_t>(class_of(std::max(dx, dy)), 31);
     const bool on_pixels = ((t.x | t.y | u.x | u.y) & (kSubpixels - 1)) == 0;
     const std::uint32_t shape = dx > 2 * dy ? 0 : dy > 2 * dx ? 1 : 2;
     CollapseClasses c;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the collapse sequence. The hierarchy's collapses, fine to coarse, are dealt into batches; within a batch they run
-// through the picture row by row: the way the engine went, so that most chains of dependent collapses fit into one. A
-// collapse that would come before another it needs waits for the next batch.
+// Writes the collapse sequence. The hierarchy's collapses, fine to coarse, are dealt into batches; within a batch they
+// run through the picture row by row: the way the engine went, so that most chains of dependent collapses fit into one.
+// A collapse that would come before another it needs waits for the next batch.
 #include <algorithm>
 #include <cstring>
 
@@ -14,7 +14,7 @@ namespace pimg {
 
 namespace {
 
-constexpr double kBatchShare = 0.03;             ///< of the vertices left, per batch
+constexpr double kBatchShare = 0.03;  ///< of the vertices left, per batch
 constexpr std::size_t kChunkCollapses = 1 << 20;
 
 struct Collapse {
@@ -34,7 +34,7 @@ std::uint64_t make_key(std::uint64_t batch, Index t)
 /// Keys such that collapses in order of their keys give the meshes of the hierarchy.
 class Scheduler {
 public:
-    explicit Scheduler(Index vertices) : m_written(vertices, 0), m_read(vertices, 0) {}
+    explicit Scheduler(Index vertices) : m_written(vertices, 0), m_read(vertices, 0) { }
 
     std::uint64_t schedule(std::uint64_t due, Index t, Index u, const Star& star)
     {
@@ -186,7 +186,7 @@ bool SequenceWriter::write_batch(const Collapse* first, const Collapse* last, fl
         const CollapseMesh::Candidates near = m_mesh.candidates(c->t);
         std::uint32_t choice = 0;
         if (c->u != near.nearest)
-            while (m_mesh.candidate(c->t, ++choice) != c->u) {}
+            while (m_mesh.candidate(c->t, ++choice) != c->u) { }
         m_streams.choice.add(near.klass, choice);
         Star star;
         Point s;
@@ -208,7 +208,8 @@ bool SequenceWriter::write_batch(const Collapse* first, const Collapse* last, fl
 SequenceWriter::SequenceWriter(const CollapseMesh& mesh, std::uint32_t lattice_shift,
                                const std::vector<std::uint8_t>& falling, const Bytes& initial,
                                const std::vector<std::int32_t>& guide)
-    : m_mesh(mesh), m_shift(lattice_shift)
+    : m_mesh(mesh),
+      m_shift(lattice_shift)
 {
     const int width = mesh.extent().x / kSubpixels + 1;
     for (std::size_t quad = 0; quad < falling.size(); ++quad) {

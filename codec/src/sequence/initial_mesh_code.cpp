@@ -7,8 +7,8 @@
 #include <cmath>
 #include <memory>
 
-#include <pimg/detail/delaunay.h>
 #include "mesh_layer/mesh_layer_code.h"
+#include <pimg/detail/delaunay.h>
 
 namespace pimg {
 
@@ -18,16 +18,17 @@ namespace {
 class ChosenPixels {
 public:
     ChosenPixels(int columns, int rows)
-        : width(columns), height(rows), m_words((std::size_t(columns) + 63) / 64),
+        : width(columns),
+          height(rows),
+          m_words((std::size_t(columns) + 63) / 64),
           m_bits(m_words * std::size_t(rows), 0)
-    {}
-    void add(int x, int y) { word(x, y) |= std::uint64_t(1) << (x & 63); }
-    bool has(int x, int y) const
     {
-        return x >= 0 && y >= 0 && x < width && (m_bits[at(x, y)] >> (x & 63) & 1) != 0;
     }
+    void add(int x, int y) { word(x, y) |= std::uint64_t(1) << (x & 63); }
+    bool has(int x, int y) const { return x >= 0 && y >= 0 && x < width && (m_bits[at(x, y)] >> (x & 63) & 1) != 0; }
     /// Calls body(x) for the chosen ones of row y from x0 to x1, while it returns true.
-    template<class Body> void for_each(int y, int x0, int x1, Body&& body) const
+    template<class Body>
+    void for_each(int y, int x0, int x1, Body&& body) const
     {
         for (int first = x0; first <= x1; first = (first | 63) + 1) {
             std::uint64_t bits = m_bits[at(first, y)] >> (first & 63);
@@ -76,8 +77,12 @@ Box box_of_circle(Point a, Point b, Point c)
     }
     constexpr double kFar = 1 << 22;
     const double more = 1.0 + 1e-9 * r;
-    const auto down = [&](double v) { return int(std::floor(std::max(v - more, -kFar))); };
-    const auto up = [&](double v) { return int(std::ceil(std::min(v + more, kFar))); };
+    const auto down = [&](double v) {
+        return int(std::floor(std::max(v - more, -kFar)));
+    };
+    const auto up = [&](double v) {
+        return int(std::ceil(std::min(v + more, kFar)));
+    };
     return { a.x + down(low[0]), a.x + up(high[0]), a.y + down(low[1]), a.y + up(high[1]) };
 }
 
@@ -85,7 +90,7 @@ Box box_of_circle(Point a, Point b, Point c)
 /// order in which they follow b.
 class Apexes {
 public:
-    explicit Apexes(const ChosenPixels& chosen) : m_chosen(chosen) {}
+    explicit Apexes(const ChosenPixels& chosen) : m_chosen(chosen) { }
 
     std::vector<Point>& find(Point a, Point b)
     {
@@ -208,19 +213,22 @@ template<class Io>
 class Walk {
 public:
     Walk(Io io, const std::vector<std::int32_t>& guide, CollapseMesh& mesh, const Original* original)
-        : m_io(io), m_guide(guide), m_mesh(mesh), m_original(original),
-          m_width(mesh.extent().x / kSubpixels + 1), m_height(mesh.extent().y / kSubpixels + 1),
-          m_chosen(m_width, m_height), m_models(std::make_unique<Models>())
-    {}
+        : m_io(io),
+          m_guide(guide),
+          m_mesh(mesh),
+          m_original(original),
+          m_width(mesh.extent().x / kSubpixels + 1),
+          m_height(mesh.extent().y / kSubpixels + 1),
+          m_chosen(m_width, m_height),
+          m_models(std::make_unique<Models>())
+    {
+    }
     bool run() { return code_pixels() && code_triangles() && connect(); }
 
 private:
     Index index(Point p) const { return Index(std::size_t(p.y) * std::size_t(m_width) + std::size_t(p.x)); }
     Point point(Index v) const { return { std::int32_t(v % Index(m_width)), std::int32_t(v / Index(m_width)) }; }
-    std::int64_t jump(Point a, Point b) const
-    {
-        return std::abs(std::int64_t(m_guide[index(a)]) - m_guide[index(b)]);
-    }
+    std::int64_t jump(Point a, Point b) const { return std::abs(std::int64_t(m_guide[index(a)]) - m_guide[index(b)]); }
     bool on_one_side(Point a, Point b) const
     {
         return (a.x == b.x && (a.x == 0 || a.x == m_width - 1)) || (a.y == b.y && (a.y == 0 || a.y == m_height - 1));
@@ -254,10 +262,10 @@ bool Walk<Io>::code_pixels()
             bool chosen = (x == 0 || x == right) && (y == 0 || y == bottom);
             if (!chosen) {
                 const std::int64_t change = jump({ std::max(x - 1, 0), y }, { std::min(x + 1, right), y })
-                                            + jump({ x, std::max(y - 1, 0) }, { x, std::min(y + 1, bottom) });
+                    + jump({ x, std::max(y - 1, 0) }, { x, std::min(y + 1, bottom) });
                 const int near = (m_chosen.has(x - 1, y) ? 1 : 0) + (m_chosen.has(x - 2, y) ? 2 : 0)
-                                 + (m_chosen.has(x - 1, y - 1) ? 4 : 0) + (m_chosen.has(x, y - 1) ? 8 : 0)
-                                 + (m_chosen.has(x + 1, y - 1) ? 16 : 0) + (m_chosen.has(x, y - 2) ? 32 : 0);
+                    + (m_chosen.has(x - 1, y - 1) ? 4 : 0) + (m_chosen.has(x, y - 1) ? 8 : 0)
+                    + (m_chosen.has(x + 1, y - 1) ? 16 : 0) + (m_chosen.has(x, y - 2) ? 32 : 0);
                 chosen = m_io.bit(m_models->chosen[busy_class(change)][near],
                                   Io::kWriting && m_original->number[v] != kGhost);
             }
@@ -292,8 +300,8 @@ Index Walk<Io>::code_apex(Index a, Index b)
         return index(found[choice]);
     if (choice > found.size())
         return kGhost;
-    const std::int32_t away = signed_number(m_io, m_models->other,
-                                            Io::kWriting ? std::int32_t(m_rank[right] - m_rank[a]) : 0);
+    const std::int32_t away =
+        signed_number(m_io, m_models->other, Io::kWriting ? std::int32_t(m_rank[right] - m_rank[a]) : 0);
     const std::int64_t rank = std::int64_t(m_rank[a]) + away;
     return rank >= 0 && rank < std::int64_t(m_vertices.size()) ? m_vertices[std::size_t(rank)] : kGhost;
 }

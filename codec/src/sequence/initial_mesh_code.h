@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The finest mesh of a hierarchy that does not start from every pixel: which pixels are its vertices, and its triangles. Such
-// meshes are Delaunay but for ties and a few flips, so a triangle costs next to nothing: Delaunay's rule
-// names the vertex that belongs to an edge, and only where it is wrong is the right one written.
+// The finest mesh of a hierarchy that does not start from every pixel: which pixels are its vertices, and its
+// triangles. Such meshes are Delaunay but for ties and a few flips, so a triangle costs next to nothing: Delaunay's
+// rule names the vertex that belongs to an edge, and only where it is wrong is the right one written.
 #pragma once
 
 #include <cstdint>

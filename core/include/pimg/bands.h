@@ -51,8 +51,8 @@ std::vector<float> values_at(const Hierarchy& hierarchy, const Bands& bands, Lev
 template<class Gain>
 void sweep(const Hierarchy& hierarchy, const Bands& bands, float* values, Level levels, Gain&& gain);
 
-/// The part of it for the splits [first, last): `values` holds the vertices of level `first` and receives those of level `last`;
-/// detail_of(i) returns the detail of split i.
+/// The part of it for the splits [first, last): `values` holds the vertices of level `first` and receives those of
+/// level `last`; detail_of(i) returns the detail of split i.
 template<class DetailOf>
 void sweep_splits(const Hierarchy& hierarchy, Level first, Level last, float* values, DetailOf&& detail_of);
 

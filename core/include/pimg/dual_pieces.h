@@ -13,15 +13,15 @@ namespace pimg {
 
 /// The pieces of all levels of one hierarchy in one structure of three numbers per vertex.
 ///
-/// The pixels are put in an order in which *every piece of every level is one contiguous run*: a vertex's own, then what
-/// it gave birth to, youngest first. A piece only ever loses the end of its run, to the vertex being born.
+/// The pixels are put in an order in which *every piece of every level is one contiguous run*: a vertex's own, then
+/// what it gave birth to, youngest first. A piece only ever loses the end of its run, to the vertex being born.
 ///
 /// A piece has the number of its vertex, 0 .. count(level) - 1, and t keeps the number of s; so a number means
-/// the same place at all levels. No piece is empty, but for pictures one pixel wide or high: their mesh repeats the row or
-/// column, and a vertex of the copy may own no pixel of the picture.
+/// the same place at all levels. No piece is empty, but for pictures one pixel wide or high: their mesh repeats the row
+/// or column, and a vertex of the copy may own no pixel of the picture.
 ///
-/// A pixel that is no vertex of the finest mesh, when the initial mesh was a simpler one, belongs to the nearest corner of
-/// its face, by barycentric weight.
+/// A pixel that is no vertex of the finest mesh, when the initial mesh was a simpler one, belongs to the nearest corner
+/// of its face, by barycentric weight.
 ///
 /// A piece is connected along the edges of the finest mesh: with a vertex for every pixel, through pixel sides and one
 /// diagonal per pixel quad. It may fall apart into several 4-connected parts; connected_parts() tells them apart.

@@ -42,14 +42,15 @@ using Level = Index;
 
 class Hierarchy {
 public:
-    int width = 0, height = 0;            ///< size of the picture in pixels
-    std::vector<Point> base_points;       ///< positions of the base vertices
+    int width = 0, height = 0;       ///< size of the picture in pixels
+    std::vector<Point> base_points;  ///< positions of the base vertices
     std::vector<Triangle> base_triangles;
-    std::vector<Split> splits;            ///< coarse to fine
-    std::vector<Stencil> stencils;        ///< of each split
-    std::vector<float> costs;             ///< volume error each split removes; never increases
-    std::vector<Index> pixels;            ///< mesh pixel (row-major) each vertex is at the finest level
-    std::vector<PixelStencil> between;    ///< the other pixels, increasing: none unless the initial mesh was a simpler one
+    std::vector<Split> splits;      ///< coarse to fine
+    std::vector<Stencil> stencils;  ///< of each split
+    std::vector<float> costs;       ///< volume error each split removes; never increases
+    std::vector<Index> pixels;      ///< mesh pixel (row-major) each vertex is at the finest level
+    std::vector<PixelStencil>
+        between;  ///< the other pixels, increasing: none unless the initial mesh was a simpler one
 
     Index base_vertices() const { return Index(base_points.size()); }
     Level levels() const { return Level(splits.size()); }

@@ -39,8 +39,8 @@ public:
 
     /// From positively oriented triangles over `points`; `extent` is the lower
     /// right corner. Fails when they are no such triangulation.
-    static Status from_triangles(std::vector<Point> points, const std::vector<Triangle>& triangles,
-                                 Point extent, Mesh& mesh);
+    static Status from_triangles(std::vector<Point> points, const std::vector<Triangle>& triangles, Point extent,
+                                 Mesh& mesh);
 
     Index size() const { return Index(m_points.size()); }
     Point extent() const { return m_extent; }
@@ -68,7 +68,8 @@ public:
 
     void reserve(std::size_t vertices);
 
-    /// Asks for the memory of a vertex, or of its neighbours, ahead of a split or collapse; of none if there is no such vertex.
+    /// Asks for the memory of a vertex, or of its neighbours, ahead of a split or collapse; of none if there is no such
+    /// vertex.
     void prefetch(Index v) const;
     void prefetch_around(Index v) const;
 

@@ -22,9 +22,9 @@ struct RegionInput {
 /// What makes a border cheap. With areas n1, n2, distance D of the means, mean strength E of the gradient along the
 /// shared border and its length l, it costs
 ///     w (floor + D^2 + boundary E) (sqrt(min(n1, n2)) / l)^(1/8),    w = n1 n2 / (n1 + n2).
-/// w D^2 is what merging adds to the variance inside the regions (Ward 1963). The gradient keeps apart what only differs
-/// at the border; the last factor favours long borders, so regions grow compact. How the defaults
-/// were found: docs/internals.md.
+/// w D^2 is what merging adds to the variance inside the regions (Ward 1963). The gradient keeps apart what only
+/// differs at the border; the last factor favours long borders, so regions grow compact. How the defaults were found:
+/// docs/internals.md.
 struct RegionOptions {
     float boundary = 8.0f;   ///< weight of the gradient along the border, in units of `channels`, 0 ..
     float floor = 1.0f;      ///< squared distance below which all differences look alike, > 0

@@ -20,7 +20,7 @@ enum class Control {
 };
 
 struct SamplingOptions {
-    double density = 1.0 / 3;    ///< largest fraction of the pixels kept, 0..1; less is kept where the map is 0
+    double density = 1.0 / 3;  ///< largest fraction of the pixels kept, 0..1; less is kept where the map is 0
     Control control = Control::gradient;
     const float* map = nullptr;  ///< own control map: a value >= 0 per pixel, row-major; used instead of `control`
     ParallelFor parallel;        ///< threads to use; the result does not depend on them
@@ -31,8 +31,8 @@ struct SamplingOptions {
 /// starts at corners[e] and leads to the triangle's next corner; twins[e] is the same edge from the
 /// other side, kGhost on the border.
 struct InitialMesh {
-    int width = 0, height = 0;    ///< of the mesh's grid, 2 or more
-    std::vector<Index> pixels;    ///< row-major pixel of each vertex, increasing; the four corners are always there
+    int width = 0, height = 0;  ///< of the mesh's grid, 2 or more
+    std::vector<Index> pixels;  ///< row-major pixel of each vertex, increasing; the four corners are always there
     std::vector<Index> corners, twins;
 
     Index vertices() const { return Index(pixels.size()); }
@@ -44,21 +44,24 @@ struct InitialMesh {
     }
 };
 
-/// Control map of a guide: the root of what `control` names, per pixel. Only ratios matter. The root because an error of
-/// interpolation grows with the first power of a difference: docs/adaptive.md compares the exponents.
+/// Control map of a guide: the root of what `control` names, per pixel. Only ratios matter. The root because an error
+/// of interpolation grows with the first power of a difference: docs/adaptive.md compares the exponents.
 std::vector<float> control_map(const Guide& guide, Control control, const ParallelFor& parallel = {});
 
-/// Turns a control map into the probability 0..1 of each pixel to be kept: a small even share, and proportional to the map
-/// where that stays below 1, so scaled that their mean is `density`. Values that are no number, or negative, count as 0.
+/// Turns a control map into the probability 0..1 of each pixel to be kept: a small even share, and proportional to the
+/// map where that stays below 1, so scaled that their mean is `density`. Values that are no number, or negative, count
+/// as 0.
 void to_density(std::vector<float>& map, double density, const ParallelFor& parallel = {});
 
 /// Serpentine error diffusion (Floyd and Steinberg) of such probabilities. Corners are always chosen, and pixels of the
-/// sides with the root of their probability, which makes neighbours on a side as close as those around it. Returns pixels, increasing.
+/// sides with the root of their probability, which makes neighbours on a side as close as those around it. Returns
+/// pixels, increasing.
 std::vector<Index> halftone(const std::vector<float>& probability, int width, int height);
 
-/// Delaunay triangulation of chosen pixels of the guide (increasing, with the four corners), exact for any choice. Where
-/// four or more lie on one circle, the diagonal across which the guide jumps less is taken. Edges are flipped away from
-/// vertices of more than kMaxDegree neighbours; where that is impossible the pixels around such a vertex are added.
+/// Delaunay triangulation of chosen pixels of the guide (increasing, with the four corners), exact for any choice.
+/// Where four or more lie on one circle, the diagonal across which the guide jumps less is taken. Edges are flipped
+/// away from vertices of more than kMaxDegree neighbours; where that is impossible the pixels around such a vertex are
+/// added.
 InitialMesh triangulate(std::vector<Index> pixels, const Guide& guide);
 
 /// All of it, for a guide of at least 2 x 2 pixels. Fails on sizes and densities out of range, or when `progress`

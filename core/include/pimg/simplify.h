@@ -25,8 +25,9 @@ struct SimplifyOptions {
     Index base_faces = 128;  ///< triangles of the base mesh; 2 (the four corners) or more
     ParallelFor parallel;    ///< threads to use; the result does not depend on them
     Progress progress;
-    InitialMesh* initial = nullptr;  ///< mesh to start from (sampling.h), whose twins are given up as soon as they have been
-                                     ///< read, to save memory; none: one vertex per pixel
+    InitialMesh* initial =
+        nullptr;  ///< mesh to start from (sampling.h), whose twins are given up as soon as they have been
+                  ///< read, to save memory; none: one vertex per pixel
     Metric metric = Metric::volume;
 };
 

@@ -4,9 +4,9 @@
 //     picture ──▶ piece means ──sweep──▶ feature picture ──┐ says where the edges are
 //        └─────────────────────────────────┴── mixed ──────┴─diffuse─▶ ─diffuse by itself─▶ result
 //
-// The hierarchy sees features at every size but leaves the shape of its pieces; diffusion over the finest mesh leaves no
-// shape but reaches only a few pixels. Each makes up for the other.
-// Why each part is as it is, and what was tried instead: docs/smoothing.md.
+// The hierarchy sees features at every size but leaves the shape of its pieces; diffusion over the finest mesh leaves
+// no shape but reaches only a few pixels. Each makes up for the other. Why each part is as it is, and what was tried
+// instead: docs/smoothing.md.
 #pragma once
 
 #include <cstddef>
@@ -34,13 +34,14 @@ struct SmoothingOptions {
     ParallelFor parallel;    ///< the result does not depend on it
 };
 
-/// Smooths away what deviates from its surroundings by up to about `strength`, as the root mean square over the channels. Small things need more contrast to stay, large ones less: features are told from texture by
-/// volume, contrast times pixels, which is what the hierarchy was built by. 0 returns the samples.
+/// Smooths away what deviates from its surroundings by up to about `strength`, as the root mean square over the
+/// channels. Small things need more contrast to stay, large ones less: features are told from texture by volume,
+/// contrast times pixels, which is what the hierarchy was built by. 0 returns the samples.
 void smooth(const Hierarchy& hierarchy, const SmoothingSource& source, const SmoothingOptions& options,
             Rasters& result);
 
-/// The first half of smooth(): coarse to fine, each vertex takes from its piece's mean what the vertices made so far do not
-/// predict and is not shrunk away. So what the coarser levels lost is found again where the finer ones show it, and
+/// The first half of smooth(): coarse to fine, each vertex takes from its piece's mean what the vertices made so far do
+/// not predict and is not shrunk away. So what the coarser levels lost is found again where the finer ones show it, and
 /// no deviation above the tolerance is ever lost. One value per mesh pixel.
 void feature_sweep(const Hierarchy& hierarchy, const SmoothingSource& source, float strength, Rasters& features);
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pimg/detail/projection.h>
 #include "mesh/pixel_stencils.h"
+#include <pimg/detail/projection.h>
 
 namespace pimg {
 
@@ -38,9 +38,8 @@ Level Hierarchy::level_of_error(double error) const
 std::size_t Hierarchy::memory() const
 {
     return base_points.capacity() * sizeof(Point) + base_triangles.capacity() * sizeof(Triangle)
-           + splits.capacity() * sizeof(Split) + stencils.capacity() * sizeof(Stencil)
-           + costs.capacity() * sizeof(float) + pixels.capacity() * sizeof(Index)
-           + between.capacity() * sizeof(PixelStencil);
+        + splits.capacity() * sizeof(Split) + stencils.capacity() * sizeof(Stencil) + costs.capacity() * sizeof(float)
+        + pixels.capacity() * sizeof(Index) + between.capacity() * sizeof(PixelStencil);
 }
 
 Status refine(const Hierarchy& h, Level level, Mesh& mesh, std::vector<Point>* coarse)
@@ -91,7 +90,7 @@ Stencil expected_stencil(const Mesh& mesh, const Split& split)
 bool same(const Stencil& a, const Stencil& b)
 {
     return a.s == b.s && a.at == b.at && a.bt == b.bt && a.au == b.au && a.bu == b.bu && a.wat == b.wat
-           && a.wbt == b.wbt && a.wau == b.wau && a.wbu == b.wbu;
+        && a.wbt == b.wbt && a.wau == b.wau && a.wbu == b.wbu;
 }
 
 bool same_pixel(const PixelStencil& a, const PixelStencil& b)
@@ -134,9 +133,8 @@ Status validate(const Hierarchy& h)
     const auto bad = [](const char* what, Level i) {
         return Status::failure("hierarchy: " + std::string(what) + " at split " + std::to_string(i));
     };
-    if (h.vertices() > h.mesh_pixels() || h.stencils.size() != h.splits.size()
-        || h.costs.size() != h.splits.size() || h.pixels.size() != h.vertices()
-        || h.between.size() != h.mesh_pixels() - h.vertices())
+    if (h.vertices() > h.mesh_pixels() || h.stencils.size() != h.splits.size() || h.costs.size() != h.splits.size()
+        || h.pixels.size() != h.vertices() || h.between.size() != h.mesh_pixels() - h.vertices())
         return Status::failure("hierarchy: sizes do not agree");
     std::vector<bool> seen(h.mesh_pixels());
     for (Index p : h.pixels) {

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pimg/mesh.h>
 #include <pimg/detail/ring_edit.h>
+#include <pimg/mesh.h>
 
 #include <algorithm>
 #include <map>
 
 namespace pimg {
 
-Status Mesh::from_triangles(std::vector<Point> points, const std::vector<Triangle>& triangles, Point extent,
-                            Mesh& mesh)
+Status Mesh::from_triangles(std::vector<Point> points, const std::vector<Triangle>& triangles, Point extent, Mesh& mesh)
 {
     const Index n = Index(points.size());
     // next[v][q] = neighbour that follows q around v: triangle (v, q, next).
@@ -109,7 +108,9 @@ bool Mesh::split(Index s, Index vl, Index vr, Point t, Point u)
         return place < degree ? place : place - degree;
     };
     const int kept = wrapped(left - right + degree) + 1, moved = wrapped(right - left + degree) + 1;
-    const auto degree_of = [&](Index q) { return q == kGhost ? 0 : int(m_degrees[q]); };
+    const auto degree_of = [&](Index q) {
+        return q == kGhost ? 0 : int(m_degrees[q]);
+    };
     if (kept + 1 > kMaxDegree || moved + 1 > kMaxDegree || degree_of(vl) + 1 > kMaxDegree
         || degree_of(vr) + 1 > kMaxDegree)
         return false;

@@ -24,7 +24,9 @@ std::int64_t doubled(Pixel a, Pixel b, Pixel p)
 class Cover {
 public:
     Cover(int width, int height, const std::vector<Triangle>& triangles)
-        : m_width(Index(width)), m_height(Index(height)), m_triangles(triangles),
+        : m_width(Index(width)),
+          m_height(Index(height)),
+          m_triangles(triangles),
           m_owner(std::size_t(width) * std::size_t(height), kGhost)
     {
         for (Index t = 0; t < Index(triangles.size()); ++t)
@@ -48,7 +50,8 @@ private:
 /// Whether pixels on the edge from a to b are the triangle's: one of two opposite directions, and those on the sides.
 bool Cover::owns(Pixel a, Pixel b) const
 {
-    const bool on_side = (a.x == b.x && (a.x == 0 || a.x == m_width - 1)) || (a.y == b.y && (a.y == 0 || a.y == m_height - 1));
+    const bool on_side =
+        (a.x == b.x && (a.x == 0 || a.x == m_width - 1)) || (a.y == b.y && (a.y == 0 || a.y == m_height - 1));
     return on_side || b.y > a.y || (b.y == a.y && b.x > a.x);
 }
 
@@ -95,7 +98,9 @@ void Cover::list(Index y, PixelStencil* out) const
         std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
         const Pixel a = pixel(t[0]), b = pixel(t[1]), c = pixel(t[2]), p = pixel(i);
         const double area = double(doubled(a, b, c));
-        *out++ = { i, t[0], t[1], t[2], float(double(doubled(a, p, c)) / area), float(double(doubled(a, b, p)) / area) };
+        *out++ = {
+            i, t[0], t[1], t[2], float(double(doubled(a, p, c)) / area), float(double(doubled(a, b, p)) / area)
+        };
     }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pimg/rasterize.h>
 #include <pimg/detail/parallel.h>
+#include <pimg/rasterize.h>
 
 #include <algorithm>
 #include <atomic>
@@ -41,10 +41,7 @@ Span span(const Point (&p)[3], int y)
 struct Plane {
     double at_origin, per_x, per_y;  // x, y in pixels
     float low, high;
-    float at(int x, int y) const
-    {
-        return std::clamp(float(at_origin + per_x * x + per_y * y), low, high);
-    }
+    float at(int x, int y) const { return std::clamp(float(at_origin + per_x * x + per_y * y), low, high); }
 };
 
 Plane plane(const Point (&p)[3], float a, float b, float c)

@@ -54,12 +54,11 @@ private:
     const Guide& m_guide;
     std::vector<Point> m_points;  // in pixels
     std::vector<Column> m_front;
-    Index m_size = 0;             // half-edges so far
+    Index m_size = 0;  // half-edges so far
     std::vector<Index> m_suspects;
 };
 
-Sweep::Sweep(InitialMesh& mesh, const Guide& guide)
-    : m_mesh(mesh), m_guide(guide), m_front(std::size_t(mesh.width))
+Sweep::Sweep(InitialMesh& mesh, const Guide& guide) : m_mesh(mesh), m_guide(guide), m_front(std::size_t(mesh.width))
 {
     m_points.reserve(mesh.pixels.size());
     for (Index v = 0; v < mesh.vertices(); ++v)
@@ -171,8 +170,7 @@ void Sweep::insert(Index v, int& near)
             join(at.left, x, e + 2);
         }
         if (at.right >= 0) {
-            const Index e
-                = add_triangle(at.vertex, m_front[std::size_t(at.right)].vertex, v, at.edge, kNone, below);
+            const Index e = add_triangle(at.vertex, m_front[std::size_t(at.right)].vertex, v, at.edge, kNone, below);
             join(x, at.right, e + 1);
         }
     }
@@ -215,12 +213,14 @@ bool Sweep::fill(int column, bool always)
 int Sweep::direction(Index e) const
 {
     const Index twin = m_mesh.twins[e];
-    const auto at = [&](Index h) { return m_points[m_mesh.corners[h]]; };
+    const auto at = [&](Index h) {
+        return m_points[m_mesh.corners[h]];
+    };
     return in_circle(at(e), at(next_edge(e)), at(previous_edge(e)), at(previous_edge(twin)));
 }
 
-/// Flips edges until those in doubt, and those a flip puts in doubt, have empty circles. While the sweep goes on the two near
-/// ones of a flip are left to settle(): they hardly ever turn out bad.
+/// Flips edges until those in doubt, and those a flip puts in doubt, have empty circles. While the sweep goes on the
+/// two near ones of a flip are left to settle(): they hardly ever turn out bad.
 void Sweep::legalise(bool near)
 {
     while (!m_suspects.empty()) {
@@ -239,7 +239,8 @@ void Sweep::legalise(bool near)
     }
 }
 
-/// Checks every edge, so that all circles are empty; then takes the diagonal of the smaller jump where four pixels lie on one.
+/// Checks every edge, so that all circles are empty; then takes the diagonal of the smaller jump where four pixels lie
+/// on one.
 void Sweep::settle()
 {
     std::vector<Index> ties;
@@ -287,12 +288,15 @@ private:
 DegreeLimiter::DegreeLimiter(InitialMesh& mesh) : m_mesh(mesh), m_degrees(mesh.pixels.size(), 0)
 {
     for (std::size_t e = 0; e < mesh.corners.size(); ++e)
-        m_degrees[mesh.corners[e]] += mesh.twins[e] == kNone ? 3 : 1;  // on the border: one more neighbour, and the ghost
+        m_degrees[mesh.corners[e]] +=
+            mesh.twins[e] == kNone ? 3 : 1;  // on the border: one more neighbour, and the ghost
 }
 
 std::vector<Index> DegreeLimiter::run()
 {
-    const auto crowded = [](Index degree) { return degree > Index(kMaxDegree); };
+    const auto crowded = [](Index degree) {
+        return degree > Index(kMaxDegree);
+    };
     std::vector<Index> stuck;
     if (std::none_of(m_degrees.begin(), m_degrees.end(), crowded))
         return stuck;
@@ -349,7 +353,9 @@ bool DegreeLimiter::relieve(Index e)
 bool DegreeLimiter::is_flip_ok(Index e) const
 {
     const Index twin = m_mesh.twins[e];
-    const auto at = [&](Index h) { return m_mesh.pixel(m_mesh.corners[h]); };
+    const auto at = [&](Index h) {
+        return m_mesh.pixel(m_mesh.corners[h]);
+    };
     const Point a = at(e), b = at(twin), c = at(previous_edge(e)), d = at(previous_edge(twin));
     return doubled_area(d, b, c) > 0 && doubled_area(c, a, d) > 0;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Control maps, densities and error diffusion.
-#include <pimg/sampling.h>
 #include <pimg/detail/parallel.h>
+#include <pimg/sampling.h>
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +40,8 @@ struct Neighbourhood {
 float squared_gradient(const Neighbourhood& n)
 {
     const float z = n.here[n.x];
-    return square(n.here[n.right] - z) + square(n.here[n.left] - z) + square(n.below[n.x] - z) + square(n.above[n.x] - z);
+    return square(n.here[n.right] - z) + square(n.here[n.left] - z) + square(n.below[n.x] - z)
+        + square(n.above[n.x] - z);
 }
 
 float squared_curvature(const Neighbourhood& n)
@@ -54,7 +55,9 @@ float squared_curvature(const Neighbourhood& n)
 template<class Measure>
 void add_row(const GuideChannel& channel, int width, int height, int y, Measure&& measure, float* map)
 {
-    const auto row = [&](int r) { return channel.samples + std::size_t(std::clamp(r, 0, height - 1)) * std::size_t(width); };
+    const auto row = [&](int r) {
+        return channel.samples + std::size_t(std::clamp(r, 0, height - 1)) * std::size_t(width);
+    };
     const float *above = row(y - 1), *here = row(y), *below = row(y + 1);
     const auto add = [&](int left, int x, int right) {
         map[x] += channel.weight * measure(Neighbourhood { above, here, below, left, x, right });
@@ -210,7 +213,9 @@ void thicken(const std::vector<Index>& vertices, InitialMesh& mesh)
     std::vector<Index>& pixels = mesh.pixels;
     const std::size_t before = pixels.size();
     std::vector<Index> added;
-    const auto add = [&](int x, int y) { added.push_back(Index(y) * Index(mesh.width) + Index(x)); };
+    const auto add = [&](int x, int y) {
+        added.push_back(Index(y) * Index(mesh.width) + Index(x));
+    };
     std::vector<bool> crowded(pixels.size());
     for (Index v : vertices)
         crowded[v] = true;
@@ -260,7 +265,9 @@ Status sample(const Guide& guide, const SamplingOptions& options, InitialMesh& m
         return Status::failure("sampling needs a guide of 2 x 2 pixels or more");
     if (!(options.density > 0.0 && options.density <= 1.0))
         return Status::failure("density must be above 0 and at most 1");
-    const auto go_on = [&](float done) { return !options.progress || options.progress(done); };
+    const auto go_on = [&](float done) {
+        return !options.progress || options.progress(done);
+    };
     const std::size_t n = std::size_t(guide.width) * std::size_t(guide.height);
     std::vector<float> map = options.map ? std::vector<float>(options.map, options.map + n)
                                          : control_map(guide, options.control, options.parallel);

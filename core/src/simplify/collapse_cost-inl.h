@@ -245,8 +245,8 @@ HWY_INLINE void store_plane(const Quadric& h, int j, float* alpha, float* beta, 
     hn::Store(h.offset, d, offset + j);
 }
 
-/// Cost of lanes j ... at (x, y): the weighted squared volumes of all channels and the floor. `first` is the form of the
-/// first channel; those of the others are made again, being too many to keep.
+/// Cost of lanes j ... at (x, y): the weighted squared volumes of all channels and the floor. `first` is the form of
+/// the first channel; those of the others are made again, being too many to keep.
 HWY_INLINE hn::Vec<Lanes> cost_at(const EdgeFan& f, const Quadric& first, int j, hn::Vec<Lanes> x, hn::Vec<Lanes> y)
 {
     const Lanes d;
@@ -330,7 +330,8 @@ HWY_INLINE int cheapest_edge(const EdgeFan& f)
     return 0;
 }
 
-/// Squared volumes, with the cost's floor, that the vertex's own fan would have at the end of an edge where they are least.
+/// Squared volumes, with the cost's floor, that the vertex's own fan would have at the end of an edge where they are
+/// least.
 HWY_INLINE float least_own_error(const EdgeFan& f)
 {
     const Lanes d;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Memoryless volume optimisation on a height field (Lindstrom & Turk 1998, 1999; paper, section 3.2).
 //
-// A triangle with corners p, q, r has the normal n = (q - p) x (r - p); nz is twice its area in the picture plane, always
-// positive, and n . (x - p) is six times the volume of the tetrahedron that x spans with it. The optimum for an edge
-// minimises the sum of the squares of these over the fans of its two ends (shared triangles once), on condition that the
-// sum itself is zero: the volume under the surface is kept.
+// A triangle with corners p, q, r has the normal n = (q - p) x (r - p); nz is twice its area in the picture plane,
+// always positive, and n . (x - p) is six times the volume of the tetrahedron that x spans with it. The optimum for an
+// edge minimises the sum of the squares of these over the fans of its two ends (shared triangles once), on condition
+// that the sum itself is zero: the volume under the surface is kept.
 //
 // Every triangle of a vertex's fan passes through the vertex. With the origin there, the fan is only
 // A = sum of n n^T and N = sum of n; no linear or constant part, hence no cancellation, and single precision is
-// enough. Volume preservation, N . u = const with Nz > 0, gives the intensity from (x, y): what is left is a 2 x 2 system.
+// enough. Volume preservation, N . u = const with Nz > 0, gives the intensity from (x, y): what is left is a 2 x 2
+// system.
 //
 // Here are the data; the arithmetic is in collapse_cost-inl.h, compiled once per instruction set.
 #pragma once
@@ -39,9 +40,9 @@ struct alignas(32) ChannelSums {
 /// Sides of the picture a vertex must stay on.
 enum Side : std::uint8_t { kFree = 0, kFixedX = 1, kFixedY = 2, kCorner = 3 };
 
-// Regularisation. Flat and ramp-like places leave the 2 x 2 system singular: a pull to the edge's midpoint of 1e-4 of its
-// trace decides there, plus a share of the area for where even the trace vanishes. The cost gets a floor that grows with
-// area and length, so that flat places coarsen evenly instead of growing one giant fan.
+// Regularisation. Flat and ramp-like places leave the 2 x 2 system singular: a pull to the edge's midpoint of 1e-4 of
+// its trace decides there, plus a share of the area for where even the trace vanishes. The cost gets a floor that grows
+// with area and length, so that flat places coarsen evenly instead of growing one giant fan.
 constexpr float kPullOfTrace = 1e-4f;
 constexpr float kPullOfArea = 1e-6f;
 constexpr float kCostFloor = 1e-5f;
@@ -77,17 +78,17 @@ struct alignas(64) EdgeFan {
     std::uint8_t side;      ///< Side of the centre vertex
     bool on_border;         ///< whether the centre or any neighbour has a side
 
-    Corners corners;                            ///< the neighbours
-    float fixed_x[kLanes], fixed_y[kLanes];     ///< 1 where the neighbour must stay on its side; only if on_border
-    float a[6][kLanes], n[3][kLanes];           ///< the neighbours' FanSums: xx xy yy xz yz zz, x y z
+    Corners corners;                         ///< the neighbours
+    float fixed_x[kLanes], fixed_y[kLanes];  ///< 1 where the neighbour must stay on its side; only if on_border
+    float a[6][kLanes], n[3][kLanes];        ///< the neighbours' FanSums: xx xy yy xz yz zz, x y z
 
-    FanSums sums;                               ///< of the centre, freshly added up
+    FanSums sums;  ///< of the centre, freshly added up
     Normals normals;
-    float cost[kLanes];                         ///< of collapsing edge j; infinite without a neighbour
-    float x[kLanes], y[kLanes];                 ///< optimum, relative to the centre
+    float cost[kLanes];                                 ///< of collapsing edge j; infinite without a neighbour
+    float x[kLanes], y[kLanes];                         ///< optimum, relative to the centre
     float alpha[kLanes], beta[kLanes], offset[kLanes];  ///< intensity there = offset - alpha x - beta y
 
-    float weights[kMaxGuideChannels];           ///< of the channels in the cost
+    float weights[kMaxGuideChannels];  ///< of the channels in the cost
     ChannelFan more[kMaxGuideChannels - 1];
 };
 

@@ -6,8 +6,8 @@
 #include <cstring>
 #include <utility>
 
-#include <pimg/detail/parallel.h>
 #include "mesh/pixel_stencils.h"
+#include <pimg/detail/parallel.h>
 
 namespace pimg {
 
@@ -37,9 +37,8 @@ void move_by_bits(const FlatArray<Item>& from, int shift, int bits, const Parall
     for (std::size_t bucket = 0; bucket < buckets; ++bucket)
         for (std::vector<std::size_t>& counts : place)
             next += std::exchange(counts[bucket], next);
-    run(parallel, kParts, [&](std::size_t part) {
-        for_part(part, [&](const Item& item, std::size_t& at) { to[at++] = item; });
-    });
+    run(parallel, kParts,
+        [&](std::size_t part) { for_part(part, [&](const Item& item, std::size_t& at) { to[at++] = item; }); });
 }
 
 /// Indices of `records` by increasing order, ties in the order they were done.
@@ -63,8 +62,8 @@ std::vector<Index> sorted(const FlatArray<CollapseRecord>& records, const Parall
     return by_order;
 }
 
-/// Calls visit(i, record) for the splits i of a batch, coarse to fine. Their order is none in memory: records are fetched
-/// ahead, and then what fetch(record) asks for.
+/// Calls visit(i, record) for the splits i of a batch, coarse to fine. Their order is none in memory: records are
+/// fetched ahead, and then what fetch(record) asks for.
 template<class Fetch, class Visit>
 void for_batch(std::size_t batch, const std::vector<Index>& by_order, const FlatArray<CollapseRecord>& records,
                Fetch&& fetch, Visit&& visit)
@@ -90,7 +89,8 @@ void prefetch_entry(const std::vector<Index>& number, Index name)
     __builtin_prefetch(reinterpret_cast<const void*>(first + name * sizeof(Index)));
 }
 
-/// One of several parts of the memory of the hierarchy, which is cleared for it: that takes about as long as filling it.
+/// One of several parts of the memory of the hierarchy, which is cleared for it: that takes about as long as filling
+/// it.
 void allocate(std::size_t part, std::size_t splits, std::size_t vertices, Hierarchy& h, std::vector<Bands>& bands)
 {
     if (part == 0)
@@ -119,8 +119,7 @@ std::vector<Index> number_names(std::size_t names, const CollapseSequence& seque
             allocate(task, by_order.size(), names, h, bands);
         else
             for_batch(
-                task - parts, by_order, sequence.records,
-                [&](const CollapseRecord& r) { prefetch_entry(number, r.u); },
+                task - parts, by_order, sequence.records, [&](const CollapseRecord& r) { prefetch_entry(number, r.u); },
                 [&](std::size_t i, const CollapseRecord& r) { number[r.u] = base + Index(i); });
     });
     return number;
@@ -165,7 +164,8 @@ void fill_splits(const CollapseSequence& sequence, const std::vector<Index>& by_
         for (std::size_t c = 0; c < more; ++c)
             bands[c + 1].details[i] = sequence.more[by_order[n - 1 - i] * more + c];
     };
-    run(parallel, batches_of(by_order.size()), [&](std::size_t batch) { for_batch(batch, by_order, sequence.records, fetch, fill); });
+    run(parallel, batches_of(by_order.size()),
+        [&](std::size_t batch) { for_batch(batch, by_order, sequence.records, fetch, fill); });
 }
 
 /// Pixels of the finest mesh: of vertices by their number, and those between.

@@ -3,15 +3,15 @@
 // queue. Tiles are visited in order, each is collapsed up to a cost limit while it sits in the cache, and the limit
 // rises from sweep to sweep; inside a tile it rises in finer steps. Keys are lazy: a vertex is
 // evaluated again only when its old cost comes up. Why this loses no quality: docs/internals.md.
-#include <pimg/simplify.h>
 #include <pimg/detail/parallel.h>
+#include <pimg/simplify.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "simplify/metrics/collapse_metric.h"
 #include "simplify/collapse_record.h"
+#include "simplify/metrics/collapse_metric.h"
 #include "simplify/tile_worker.h"
 #include "simplify/working_mesh.h"
 

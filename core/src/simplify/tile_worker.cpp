@@ -25,8 +25,8 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kSteps[] = { 0.35355339f, 0.5f, 0.70710678f, 1.0f };
 
 // Keys that save evaluations and change no quality (docs/internals.md): what an untouched vertex is filed under, as a
-// share of its own fan's error at the end of an edge; and, as multiples of the cost of a collapse, the key of the vertex
-// it makes and the least one of those around it. Their edges are hardly ever cheaper.
+// share of its own fan's error at the end of an edge; and, as multiples of the cost of a collapse, the key of the
+// vertex it makes and the least one of those around it. Their edges are hardly ever cheaper.
 constexpr float kFirstKey = 0.6f;
 constexpr float kFreshKey = 3.0f;
 constexpr float kNearKey = 1.25f;

@@ -276,7 +276,8 @@ void WorkingMesh::compact_if_sparse(const ParallelFor& parallel)
     const auto close_up = [&](auto& array, std::size_t each) {
         for (std::size_t i = 0; i < tiles.size(); ++i) {
             const auto from = array.begin() + std::ptrdiff_t(before[i].first * each);
-            std::copy(from, from + std::ptrdiff_t(counts[i] * each), array.begin() + std::ptrdiff_t(tiles[i].first * each));
+            std::copy(from, from + std::ptrdiff_t(counts[i] * each),
+                      array.begin() + std::ptrdiff_t(tiles[i].first * each));
         }
     };
     run(parallel, 3, [&](std::size_t task) {

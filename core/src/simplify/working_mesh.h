@@ -67,7 +67,8 @@ public:
     /// start_tile().
     WorkingMesh(const Guide& guide, const ParallelFor& parallel);
 
-    /// The vertices and triangles of `initial`, which must not exceed kMaxDegree. A vertex takes the samples of its pixel.
+    /// The vertices and triangles of `initial`, which must not exceed kMaxDegree. A vertex takes the samples of its
+    /// pixel.
     WorkingMesh(const Guide& guide, const InitialMesh& initial);
 
     const ChannelSums* more_of(Index v) const { return more.data() + std::size_t(v) * std::size_t(more_channels); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All steps are taken in one pass over the rows: when row r is read, step s can do row r - s. What is in flight, a few rows for
-// each step, stays in the cache, so a step costs arithmetic and no memory traffic.
+// All steps are taken in one pass over the rows: when row r is read, step s can do row r - s. What is in flight, a few
+// rows for each step, stays in the cache, so a step costs arithmetic and no memory traffic.
 #include <pimg/detail/diffusion.h>
 #include <pimg/detail/parallel.h>
 

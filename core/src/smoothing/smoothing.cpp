@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pimg/smoothing.h>
 #include <pimg/detail/parallel.h>
+#include <pimg/smoothing.h>
 
 #include <algorithm>
 #include <cmath>

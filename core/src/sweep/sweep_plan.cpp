@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kTileBits = 6;
 constexpr Index kTile = 1 << kTileBits;  ///< side of a tile, in pixels
-constexpr Level kTogether = 16384;  ///< splits of the first stage: with fewer vertices, faces are larger than tiles
+constexpr Level kTogether = 16384;   ///< splits of the first stage: with fewer vertices, faces are larger than tiles
 constexpr Level kTaskSplits = 1024;  ///< at least, of several tiles if need be
 
 /// Where the value of every mesh pixel is: tile by tile, row by row.
@@ -49,12 +49,13 @@ struct Turn {
     Index packed = kFirstTile;  ///< stage 0
 
     Turn() = default;
-    Turn(Index stage, Index tile) : packed((stage << kTileOfTurn) | tile) {}
+    Turn(Index stage, Index tile) : packed((stage << kTileOfTurn) | tile) { }
     Index stage() const { return packed >> kTileOfTurn; }
     Index tile() const { return packed & kAnyTile; }
     /// The first stage in which `other`, a tile, may build on it.
     Index stage_for(Index other) const { return stage() + (tile() != other); }
-    /// The later of two; of two in one stage, that stage and any tile. Without branches, which would be as good as random.
+    /// The later of two; of two in one stage, that stage and any tile. Without branches, which would be as good as
+    /// random.
     void join(Turn other)
     {
         const Index any = other.packed | kAnyTile;
@@ -79,7 +80,7 @@ struct Use {
 /// Gives every split its turn, in the hierarchy's order.
 class Scheduler {
 public:
-    explicit Scheduler(std::size_t vertices) : m_uses(vertices) {}
+    explicit Scheduler(std::size_t vertices) : m_uses(vertices) { }
 
     const std::vector<Use>& uses() const { return m_uses; }
 
@@ -88,7 +89,8 @@ public:
         Index stage = std::max(m_uses[k.s].write.stage_for(tile), m_uses[k.s].read.stage_for(tile));
         for (const Index v : { k.at, k.bt, k.au, k.bu })
             stage = std::max(stage, m_uses[v].write.stage_for(tile));
-        if (stage >= Turn::kLastStage) {  // all the rest one after the other: only a hierarchy made for that needs as many
+        if (stage
+            >= Turn::kLastStage) {  // all the rest one after the other: only a hierarchy made for that needs as many
             stage = Turn::kLastStage;
             tile = Turn::kFirstTile;
         }
@@ -143,8 +145,10 @@ void sort_by(std::size_t keys, Key&& key, std::vector<Scheduled>& all)
 std::vector<Scheduled> in_turn(const Hierarchy& h, const std::vector<Index>& places, Index tiles)
 {
     std::vector<Scheduled> all = schedule(h, places);
-    sort_by(tiles + 1, [tiles](Turn turn) { return std::min(turn.tile(), tiles); }, all);
-    sort_by(Turn::kLastStage + 1, [](Turn turn) { return turn.stage(); }, all);
+    sort_by(
+        tiles + 1, [tiles](Turn turn) { return std::min(turn.tile(), tiles); }, all);
+    sort_by(
+        Turn::kLastStage + 1, [](Turn turn) { return turn.stage(); }, all);
     return all;
 }
 
@@ -192,8 +196,10 @@ SweepPlan::SweepPlan(const Hierarchy& h, const ParallelFor& parallel)
         const Level i = all[j].split;
         const Stencil& k = h.stencils[i];
         m_order[j] = i;
-        m_splits[j] = { places[k.s],  places[k.at], places[k.bt], places[k.au], places[k.bu],
-                        places[h.base_vertices() + i], k.wat, k.wbt, k.wau, k.wbu };
+        m_splits[j] = { places[k.s],  places[k.at], places[k.bt],
+                        places[k.au], places[k.bu], places[h.base_vertices() + i],
+                        k.wat,        k.wbt,        k.wau,
+                        k.wbu };
     });
 }
 
@@ -266,7 +272,7 @@ void SweepPlan::scatter(const Hierarchy& h, const float* values, float* samples,
 std::size_t SweepPlan::memory() const
 {
     return m_base.capacity() * sizeof(Index) + m_order.capacity() * sizeof(PlannedSplit)
-           + m_order.capacity() * sizeof(Level) + m_tasks.capacity() * sizeof(SweepTask);
+        + m_order.capacity() * sizeof(Level) + m_tasks.capacity() * sizeof(SweepTask);
 }
 
 }  // namespace pimg

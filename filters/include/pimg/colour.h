@@ -12,7 +12,8 @@
 
 namespace pimg {
 
-/// log2 of `count` positive numbers in place, by a processor of OpenColorIO that is built once. Numbers below 2^-126 count as 2^-126.
+/// log2 of `count` positive numbers in place, by a processor of OpenColorIO that is built once. Numbers below 2^-126
+/// count as 2^-126.
 void log2_in_place(float* values, std::size_t count);
 /// Its inverse, on vectors: several times as fast as a processor. Exponents are clamped to -126..127.
 void exp2_in_place(float* values, std::size_t count);
@@ -30,12 +31,12 @@ public:
     /// Finds out from, in this order: `space` (the option incolorspace), the attribute oiio:ColorSpace if it says more
     /// than "linear", the attribute chromaticities of OpenEXR, sRGB for 8-bit samples, and else scene-linear.
     /// Names are looked up in the configuration of $OCIO when that is set, then among the engine's own:
-    /// linear, srgb, rec709, gammaX.Y, acescg, aces2065-1 and their usual aliases. Scene-linear is the role of that name in the
-    /// configuration of $OCIO, and Rec. 709 without one. The primaries, and with them the weights of luminance, of a space of a
-    /// configuration are found by converting red, green and blue to a space whose primaries are known: the role
-    /// aces_interchange, else a scene-referred role cie_xyz_d65_interchange or space XYZ; else they are known from
-    /// the space's name; else the configuration's luma coefficients are taken, which are Rec. 709 unless it says otherwise.
-    /// Fails when `space` is unknown or $OCIO cannot be read.
+    /// linear, srgb, rec709, gammaX.Y, acescg, aces2065-1 and their usual aliases. Scene-linear is the role of that
+    /// name in the configuration of $OCIO, and Rec. 709 without one. The primaries, and with them the weights of
+    /// luminance, of a space of a configuration are found by converting red, green and blue to a space whose primaries
+    /// are known: the role aces_interchange, else a scene-referred role cie_xyz_d65_interchange or space XYZ; else they
+    /// are known from the space's name; else the configuration's luma coefficients are taken, which are Rec. 709 unless
+    /// it says otherwise. Fails when `space` is unknown or $OCIO cannot be read.
     static bool resolve(const OIIO::ImageSpec& spec, const std::string& space, Colour& colour, std::string& error);
 
     /// Colour channels: R, G and B if the picture has channels so named, else the first three that are neither alpha

@@ -2,14 +2,17 @@
 // Filters on progressive images, in the manner of OpenImageIO's ImageBufAlgo. Rules common to all functions; what is
 // said at each function below are exceptions and additions.
 //
-// Forms     Each filter has four: the result goes to `dst` or is returned; the source is a picture, whose hierarchy is then
+// Forms     Each filter has four: the result goes to `dst` or is returned; the source is a picture, whose hierarchy is
+// then
 //           built with default BuildOptions, or a ProgressiveImage, so that further parameters cost one sweep.
 // Errors    The dst form returns false and leaves a message in dst.geterror(); the other returns a picture
 //           with has_error(). Nothing is thrown. Deep images, volumes, and empty pictures are refused.
-// Source    Any pixel type, any number of channels, any data window; read as float, in memory or in an ImageCache. It may be `dst`.
-// Result    A `dst` that is not initialized becomes a copy of the source in windows, channels and metadata, and in pixel type
+// Source    Any pixel type, any number of channels, any data window; read as float, in memory or in an ImageCache. It
+// may be `dst`. Result    A `dst` that is not initialized becomes a copy of the source in windows, channels and
+// metadata, and in pixel type
 //           unless stated otherwise. One that is keeps its own, and only pixels inside `roi` and both pictures change.
-// roi       Restricts what is written, pixels and channels; undefined = all of dst, or of the source. The picture is always filtered
+// roi       Restricts what is written, pixels and channels; undefined = all of dst, or of the source. The picture is
+// always filtered
 //           whole, so a region's pixels are those of the whole result.
 // nthreads  0 = OpenImageIO's "threads" attribute. Never changes a bit of the result.
 // Channels  Colour channels are filtered: R, G, B by name, else the first three that are neither alpha nor
@@ -30,19 +33,19 @@ namespace ImageBufAlgo {
 using OIIO::ImageBuf;
 using OIIO::ROI;
 
-/// Compresses a scene's range of luminance to a display's (paper, section 5.1). In log2 luminance the base is scaled by s0, and every
-/// detail d by
+/// Compresses a scene's range of luminance to a display's (paper, section 5.1). In log2 luminance the base is scaled by
+/// s0, and every detail d by
 ///     h(d) = s0 + (1 - s0) (1 - d / dmax)^beta,      d = |detail|, at most dmax.
 /// With coherence > 0 both details of a split take h of their contrast envelope instead: coherence times the envelope
-/// of the coarser vertices around, and for the rest the contrast of the coarser faces they correct, or their own if larger.
-/// That keeps small corrections beside a strong edge in step with the edge, which Eq. (2) as printed (coherence = 0) does
-/// not: it makes halos and reverses gradients.
-/// Then exposure and white are fitted to the display, unless fit = 0.
+/// of the coarser vertices around, and for the rest the contrast of the coarser faces they correct, or their own if
+/// larger. That keeps small corrections beside a strong edge in step with the edge, which Eq. (2) as printed (coherence
+/// = 0) does not: it makes halos and reverses gradients. Then exposure and white are fitted to the display, unless fit
+/// = 0.
 ///
-/// Returns display-linear RGB, 0..1, in the source's primaries (oiio:ColorSpace says which): linear light, white at 1. Hue and saturation are
-/// those of the source. 8-bit and other encoded sources are decoded first. NaN becomes what is around it, +Inf white.
-/// With fit = 0 the result is in the units of the (decoded) source, and s0 = 1 returns the source.
-/// dst: float.
+/// Returns display-linear RGB, 0..1, in the source's primaries (oiio:ColorSpace says which): linear light, white at 1.
+/// Hue and saturation are those of the source. 8-bit and other encoded sources are decoded first. NaN becomes what is
+/// around it, +Inf white. With fit = 0 the result is in the units of the (decoded) source, and s0 = 1 returns the
+/// source. dst: float.
 bool hdr_compress(ImageBuf& dst, const ImageBuf& src, const HdrCompressOptions& options = {}, ROI roi = {},
                   int nthreads = 0);
 bool hdr_compress(ImageBuf& dst, const ProgressiveImage& src, const HdrCompressOptions& options = {}, ROI roi = {},
@@ -55,14 +58,15 @@ ImageBuf hdr_compress(const ProgressiveImage& src, const HdrCompressOptions& opt
 /// rendered with those of one frame does not flicker. False, with an error, for bad options.
 bool resolve_hdr_compress(const ProgressiveImage& src, HdrCompressOptions& options, std::string& error,
                           int nthreads = 0);
-/// The same without a hierarchy, which takes little longer than reading the picture. Of `build` only the colour space counts.
+/// The same without a hierarchy, which takes little longer than reading the picture. Of `build` only the colour space
+/// counts.
 bool resolve_hdr_compress(const ImageBuf& src, HdrCompressOptions& options, std::string& error,
                           const BuildOptions& build = {}, int nthreads = 0);
 
-/// Smooths texture away and keeps features. By strength (the default): what is small in contrast for its size goes, edges and
-/// thin lines stay; one decision for all channels. strength = 0: the source, bit for bit.
-/// By splits or fraction (paper, section 4.1): leaves out the details of all but the first splits, so that what is between
-/// them becomes linear. All splits kept: the source.
+/// Smooths texture away and keeps features. By strength (the default): what is small in contrast for its size goes,
+/// edges and thin lines stay; one decision for all channels. strength = 0: the source, bit for bit. By splits or
+/// fraction (paper, section 4.1): leaves out the details of all but the first splits, so that what is between them
+/// becomes linear. All splits kept: the source.
 bool feature_lowpass(ImageBuf& dst, const ImageBuf& src, const FeatureLowpassOptions& options = {}, ROI roi = {},
                      int nthreads = 0);
 bool feature_lowpass(ImageBuf& dst, const ProgressiveImage& src, const FeatureLowpassOptions& options = {},
@@ -73,9 +77,9 @@ ImageBuf feature_lowpass(const ProgressiveImage& src, const FeatureLowpassOption
                          int nthreads = 0);
 
 /// Multiplies details by `gain`: those of a range of splits (paper, section 4.1), by a curve over the position in the
-/// hierarchy, or, with strength, noise or log, what feature_lowpass() of that strength removes, less on edges so that they
-/// keep their shape. gain = 1: the source, bit for bit.
-/// dst: floating point; results may exceed the source's range.
+/// hierarchy, or, with strength, noise or log, what feature_lowpass() of that strength removes, less on edges so that
+/// they keep their shape. gain = 1: the source, bit for bit. dst: floating point; results may exceed the source's
+/// range.
 bool detail_enhance(ImageBuf& dst, const ImageBuf& src, const DetailEnhanceOptions& options = {}, ROI roi = {},
                     int nthreads = 0);
 bool detail_enhance(ImageBuf& dst, const ProgressiveImage& src, const DetailEnhanceOptions& options = {}, ROI roi = {},
@@ -84,7 +88,8 @@ ImageBuf detail_enhance(const ImageBuf& src, const DetailEnhanceOptions& options
 ImageBuf detail_enhance(const ProgressiveImage& src, const DetailEnhanceOptions& options = {}, ROI roi = {},
                         int nthreads = 0);
 
-/// The mesh M_i of one level as a picture: its triangles, Gouraud-shaded. NaN and Inf only come back at the finest level.
+/// The mesh M_i of one level as a picture: its triangles, Gouraud-shaded. NaN and Inf only come back at the finest
+/// level.
 bool level_image(ImageBuf& dst, const ImageBuf& src, const LevelOptions& options = {}, ROI roi = {}, int nthreads = 0);
 bool level_image(ImageBuf& dst, const ProgressiveImage& src, const LevelOptions& options = {}, ROI roi = {},
                  int nthreads = 0);
@@ -100,8 +105,8 @@ bool wireframe(ImageBuf& dst, const ProgressiveImage& src, const WireframeOption
 ImageBuf wireframe(const ImageBuf& src, const WireframeOptions& options = {}, ROI roi = {}, int nthreads = 0);
 ImageBuf wireframe(const ProgressiveImage& src, const WireframeOptions& options = {}, ROI roi = {}, int nthreads = 0);
 
-/// Partitions the picture into the dual pieces of one level (paper, section 4.2): the pixels whose vertices were merged into each
-/// vertex of M_i. A piece is a union of pieces at every finer level, where one of them keeps its number.
+/// Partitions the picture into the dual pieces of one level (paper, section 4.2): the pixels whose vertices were merged
+/// into each vertex of M_i. A piece is a union of pieces at every finer level, where one of them keeps its number.
 ///   labels      one channel of vertex numbers from 0, not scaled to any range. dst: uint32.
 ///   mean, boundaries  as for segment().
 /// Levels count as in level_image(); the finest has a piece for every pixel.
@@ -113,12 +118,14 @@ ImageBuf dual_pieces(const ImageBuf& src, const DualPiecesOptions& options = {},
 ImageBuf dual_pieces(const ProgressiveImage& src, const DualPiecesOptions& options = {}, ROI roi = {},
                      int nthreads = 0);
 
-/// Partitions the picture into connected regions that look alike, by merging its pieces, most alike first (paper, section 4.2). Colours
-/// are compared in CIELAB: of linear light, with the median luminance at 0.18 if the picture is
-/// scene-linear and so has no white. The merges are kept with the ProgressiveImage: other numbers
-/// of regions cost one pass, and coarser regions are unions of finer ones. Exactly `regions` of them, 4-connected.
-///   labels      one channel of region numbers from 0, in order of their first pixel, row by row, not scaled to any range. dst: uint32.
-///   mean        every colour channel at its mean over the region, as stored; special samples count as what is around them.
+/// Partitions the picture into connected regions that look alike, by merging its pieces, most alike first (paper,
+/// section 4.2). Colours are compared in CIELAB: of linear light, with the median luminance at 0.18 if the picture is
+/// scene-linear and so has no white. The merges are kept with the ProgressiveImage: other numbers of regions cost one
+/// pass, and coarser regions are unions of finer ones. Exactly `regions` of them, 4-connected.
+/// labels      one channel of region numbers from 0, in order of their first pixel, row by row, not scaled to any
+/// range. dst: uint32.
+/// mean        every colour channel at its mean over the region, as stored; special samples count as what is around
+/// them.
 ///   boundaries  one channel, 1 where the right or lower neighbour is in another region, else 0.
 /// stats=FILE writes area, centre, bounding box, and mean and deviation of every channel, for each region.
 bool segment(ImageBuf& dst, const ImageBuf& src, const SegmentOptions& options = {}, ROI roi = {}, int nthreads = 0);
@@ -147,8 +154,7 @@ ImageBuf mosaic(const ProgressiveImage& src, const MosaicOptions& options = {}, 
 
 /// Draws the picture with black lines (0) on white paper (1): along the edges, as dense as it is dark.
 bool ink(ImageBuf& dst, const ImageBuf& src, const InkOptions& options = {}, ROI roi = {}, int nthreads = 0);
-bool ink(ImageBuf& dst, const ProgressiveImage& src, const InkOptions& options = {}, ROI roi = {},
-         int nthreads = 0);
+bool ink(ImageBuf& dst, const ProgressiveImage& src, const InkOptions& options = {}, ROI roi = {}, int nthreads = 0);
 ImageBuf ink(const ImageBuf& src, const InkOptions& options = {}, ROI roi = {}, int nthreads = 0);
 ImageBuf ink(const ProgressiveImage& src, const InkOptions& options = {}, ROI roi = {}, int nthreads = 0);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures of labels: whole numbers from 0 in the first channel, not scaled between integers and floats as other pixels are.
+// Pictures of labels: whole numbers from 0 in the first channel, not scaled between integers and floats as other pixels
+// are.
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>

@@ -70,14 +70,14 @@ std::vector<OptionInfo> describe_options();
 
 /// How the picture is read and its hierarchy built.
 struct BuildOptions {
-    std::string guide;          ///< luma, log, rgb or lab (CIELAB); empty: log for half/float pictures, else luma
-    std::string weights;        ///< of the errors of the guide's channels, above 0: "1,0.5,0.5"; empty: 1 each
-    int base = 128;             ///< faces of the base mesh
+    std::string guide;              ///< luma, log, rgb or lab (CIELAB); empty: log for half/float pictures, else luma
+    std::string weights;            ///< of the errors of the guide's channels, above 0: "1,0.5,0.5"; empty: 1 each
+    int base = 128;                 ///< faces of the base mesh
     std::string metric = "volume";  ///< cost of a collapse; quadric and exact are slow, for comparison
-    std::string incolorspace;   ///< colour space of the picture; empty: its oiio:ColorSpace, else sRGB for 8 bit,
-                                ///< else scene-linear
-    std::string mesh = "full";  ///< full: one vertex per pixel; adaptive: fewer, and a residual (section 6)
-    float density = 0.33f;      ///< share of the pixels an adaptive mesh keeps
+    std::string incolorspace;       ///< colour space of the picture; empty: its oiio:ColorSpace, else sRGB for 8 bit,
+                                    ///< else scene-linear
+    std::string mesh = "full";      ///< full: one vertex per pixel; adaptive: fewer, and a residual (section 6)
+    float density = 0.33f;          ///< share of the pixels an adaptive mesh keeps
     std::string control = "gradient";  ///< what its density follows: gradient, curvature, or an image file's brightness
 };
 
@@ -114,8 +114,8 @@ struct FeatureLowpassOptions : StrengthOptions {
     float fraction = -1.0f;  ///< the same as a share of all splits
 };
 
-/// Amplifies the details of a range of splits (paper, section 4.1) or, with strength or noise, what feature_lowpass() of
-/// that strength removes.
+/// Amplifies the details of a range of splits (paper, section 4.1) or, with strength or noise, what feature_lowpass()
+/// of that strength removes.
 struct DetailEnhanceOptions : StrengthOptions {
     float gain = 2.0f;
     float from = 0.1f;  ///< first split amplified: a share of all splits, or a number of splits if above 1
@@ -133,8 +133,8 @@ struct SegmentOptions {
     std::string stats;              ///< file for figures of every region, .json or else CSV; empty: none
 };
 
-/// HDR compression (paper, section 5.1, Eq. 2) with contrast envelope and automatic exposure. Values of 0 marked "found"
-/// are taken from the picture; resolve_hdr_compress() tells them.
+/// HDR compression (paper, section 5.1, Eq. 2) with contrast envelope and automatic exposure. Values of 0 marked
+/// "found" are taken from the picture; resolve_hdr_compress() tells them.
 struct HdrCompressOptions {
     float s0 = 0.0f;     ///< scale of the base and of the largest details; 0: found
     float beta = 10.0f;  ///< how fast smaller details are compressed less
@@ -151,20 +151,21 @@ struct HdrCompressOptions {
 
 /// Painterly rendering (paper, section 5.2).
 struct PaintOptions {
-    float min = 3.0f;              ///< narrowest brush in pixels
-    float max = 32.0f;             ///< widest brush in pixels
-    std::string brush = "bristle"; ///< round, flat, bristle, knife, or a picture: alpha says where, grey how thick
-    float length = 1.0f;           ///< factor on the length of strokes
-    float tolerance = 3.0f;        ///< least improvement a stroke must bring, in 8-bit steps; 0: strokes for all splits
-    float opacity = 1.0f;          ///< of every stroke; 0 leaves the canvas
-    float impasto = 0.0f;          ///< strength of the light on the relief of the paint
-    float jitter_color = 0.0f;     ///< random change of a stroke's brightness, as a share of it
-    float jitter_angle = 0.0f;     ///< random turn of a stroke, as a share of 45 degrees
-    float jitter_size = 0.0f;      ///< random change of a stroke's width, as a share of it
-    int seed = 1;                  ///< of all that is random
-    std::string canvas;            ///< colour or picture painted on; empty: the picture itself
-    std::string detail;            ///< picture that scales the brushes: white for a quarter, grey 0.5 as they are, black for four times
-    std::string strokes;           ///< FILE.svg or FILE.json the strokes are written to; empty: none
+    float min = 3.0f;               ///< narrowest brush in pixels
+    float max = 32.0f;              ///< widest brush in pixels
+    std::string brush = "bristle";  ///< round, flat, bristle, knife, or a picture: alpha says where, grey how thick
+    float length = 1.0f;            ///< factor on the length of strokes
+    float tolerance = 3.0f;     ///< least improvement a stroke must bring, in 8-bit steps; 0: strokes for all splits
+    float opacity = 1.0f;       ///< of every stroke; 0 leaves the canvas
+    float impasto = 0.0f;       ///< strength of the light on the relief of the paint
+    float jitter_color = 0.0f;  ///< random change of a stroke's brightness, as a share of it
+    float jitter_angle = 0.0f;  ///< random turn of a stroke, as a share of 45 degrees
+    float jitter_size = 0.0f;   ///< random change of a stroke's width, as a share of it
+    int seed = 1;               ///< of all that is random
+    std::string canvas;         ///< colour or picture painted on; empty: the picture itself
+    std::string
+        detail;  ///< picture that scales the brushes: white for a quarter, grey 0.5 as they are, black for four times
+    std::string strokes;  ///< FILE.svg or FILE.json the strokes are written to; empty: none
 };
 
 /// Dual pieces as the tiles of a mosaic (paper, section 7).

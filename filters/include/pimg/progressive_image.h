@@ -42,16 +42,16 @@ struct BuildStats {
 ///   black         a stop below the 0.1 % quantile of the other pixels, but no more than 16 stops below their median.
 ///   hot pixels    one of the brightest 0.1 % and 10 stops above all its neighbours: their mean.
 ///   light sources limited to 8 stops above the 99.95 % quantile.
-/// The last four concern only the guide; the pixel keeps its ratio to its luminance. All limits are relative to the picture: scaling
-/// it by a power of two gives the very same mesh.
+/// The last four concern only the guide; the pixel keeps its ratio to its luminance. All limits are relative to the
+/// picture: scaling it by a power of two gives the very same mesh.
 ///
 /// Colour with alpha is worked on as stored, that is associated (premultiplied), like everywhere in OpenImageIO.
 class ProgressiveImage {
 public:
-    /// Gives a hierarchy that was built before and, on it, the bands of channels of one finite value per mesh pixel each; such as
-    /// Decoder::read_hierarchy().
-    using StoredHierarchy
-        = std::function<Status(const std::vector<const float*>& channels, Hierarchy&, std::vector<Bands>&)>;
+    /// Gives a hierarchy that was built before and, on it, the bands of channels of one finite value per mesh pixel
+    /// each; such as Decoder::read_hierarchy().
+    using StoredHierarchy =
+        std::function<Status(const std::vector<const float*>& channels, Hierarchy&, std::vector<Bands>&)>;
 
     ProgressiveImage() = default;
 

@@ -157,8 +157,8 @@ bool weights_by_name(const std::string& name, Weights& weights)
     return false;
 }
 
-/// The weights of well-known primaries that these are within a hundredth of, else these: a conversion between whites, which
-/// shifts them a little, is no property of the primaries.
+/// The weights of well-known primaries that these are within a hundredth of, else these: a conversion between whites,
+/// which shifts them a little, is no property of the primaries.
 Weights without_adaptation(const Weights& found)
 {
     Weights nearest = found;
@@ -290,7 +290,8 @@ struct ColourFinder {
         else if (is_one_of(name, { "linear", "scene_linear" }))
             use_scene_linear();
         else
-            return weights_by_name(name, colour.m_weights) || is_one_of(name, { "lin_rec709", "lin_rec709_scene", "lin_srgb", "raw", "data" });
+            return weights_by_name(name, colour.m_weights)
+                || is_one_of(name, { "lin_rec709", "lin_rec709_scene", "lin_srgb", "raw", "data" });
         return true;
     }
 

@@ -16,9 +16,9 @@ namespace pimg {
 /// CIELAB-like channels of a float picture without special samples, one raster of its size each: L, a, b of its linear
 /// light; L alone for one colour channel, and that of each for two. Greys have a = b = 0 whatever the primaries.
 ///
-/// Encoded pictures (8 bit) have their white at L = 100. Scene-linear ones have no white: the median luminance is placed at
-/// 0.18, and above white the cube root goes on as a logarithm, so that the distance of two bright
-/// colours depends on their ratio. Negative light counts as none.
+/// Encoded pictures (8 bit) have their white at L = 100. Scene-linear ones have no white: the median luminance is
+/// placed at 0.18, and above white the cube root goes on as a logarithm, so that the distance of two bright colours
+/// depends on their ratio. Negative light counts as none.
 std::vector<std::vector<float>> lab_channels(const OIIO::ImageBuf& picture, const Colour& colour,
                                              const ParallelFor& parallel);
 

@@ -25,7 +25,9 @@ using Vector = hn::Vec<Lanes>;
 HWY_INLINE Vector exp2(Vector x)
 {
     constexpr float kLn2 = 0.69314718f;
-    constexpr float kInverseFactorials[] = { 1.0f / 5040, 1.0f / 720, 1.0f / 120, 1.0f / 24, 1.0f / 6, 0.5f, 1.0f, 1.0f };
+    constexpr float kInverseFactorials[] = {
+        1.0f / 5040, 1.0f / 720, 1.0f / 120, 1.0f / 24, 1.0f / 6, 0.5f, 1.0f, 1.0f
+    };
     const Lanes d;
     const hn::RebindToSigned<Lanes> i;
     x = hn::Min(hn::Max(x, hn::Set(d, -126.0f)), hn::Set(d, 127.0f));
@@ -37,7 +39,8 @@ HWY_INLINE Vector exp2(Vector x)
     return sum * hn::BitCast(d, hn::ShiftLeft<23>(hn::ConvertTo(i, whole) + hn::Set(i, 127)));
 }
 
-/// log2 x for positive normal x, about -127 for 0: the series of the inverse hyperbolic tangent on half an octave to both sides of 1.
+/// log2 x for positive normal x, about -127 for 0: the series of the inverse hyperbolic tangent on half an octave to
+/// both sides of 1.
 HWY_INLINE Vector log2(Vector x)
 {
     constexpr std::int32_t kRootOfHalf = 0x3f3504f3;

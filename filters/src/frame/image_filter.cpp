@@ -82,7 +82,7 @@ void write_rows(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, OIIO::R
     const OIIO::TypeDesc type = dst.spec().format;
     const std::size_t pixel_bytes = std::size_t(channels) * sizeof(float);
     const bool in_place = type == OIIO::TypeDesc::FLOAT && roi.chbegin == 0 && roi.chend == channels
-                          && dst.pixel_stride() == OIIO::stride_t(pixel_bytes);
+        && dst.pixel_stride() == OIIO::stride_t(pixel_bytes);
     for_rows(parallel, roi.ybegin, roi.yend, [&](int y) {
         const float* source = static_cast<const float*>(data.source.pixeladdr(roi.xbegin, y, roi.zbegin));
         if (in_place) {

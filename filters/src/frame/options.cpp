@@ -221,8 +221,9 @@ void add_strength_options(std::vector<Option<T>>& table)
         { &T::log, { "log", 0, 0, "", "", "work on the channels' logarithms: for scene-referred pictures" } });
 }
 
-constexpr OptionRule kPartitionOutput = { "output", 0, 0, "", "labels|mean|boundaries",
-                                          "numbers from 0, mean colours, or 1 at the borders" };
+constexpr OptionRule kPartitionOutput = {
+    "output", 0, 0, "", "labels|mean|boundaries", "numbers from 0, mean colours, or 1 at the borders"
+};
 
 /// The level options of T, a struct derived from LevelOptions.
 template<class T>

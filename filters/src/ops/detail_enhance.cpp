@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Detail enhancement: what the low-pass of a strength removes is amplified, or as in the paper (section 4.1) the details of a
-// range of splits.
-#include <pimg/imagebufalgo.h>
+// Detail enhancement: what the low-pass of a strength removes is amplified, or as in the paper (section 4.1) the
+// details of a range of splits.
 #include <pimg/detail/parallel.h>
+#include <pimg/imagebufalgo.h>
 
 #include <algorithm>
 #include <charconv>
@@ -43,7 +43,7 @@ bool parse_numbers(std::string_view text, double& position, double& gain)
         return status == std::errc() && end == word.data() + word.size();
     };
     return number(text.substr(0, colon), position) && number(text.substr(colon + 1), gain) && position >= 0.0
-           && position <= 1e9 && gain >= 0.0 && gain <= 100.0;
+        && position <= 1e9 && gain >= 0.0 && gain <= 100.0;
 }
 
 bool parse_curve(const Hierarchy& hierarchy, const std::string& text, Curve& curve, std::string& error)
@@ -69,7 +69,8 @@ std::vector<float> gains_less_one(const Curve& curve, Level levels)
     for (std::size_t k = 0; k < curve.size(); ++k) {
         const CurvePoint from = curve[k];
         const CurvePoint to = k + 1 < curve.size() ? curve[k + 1] : CurvePoint { levels + 1, from.gain };
-        const double slope = (double(to.gain) - double(from.gain)) / std::max(double(to.split) - double(from.split), 1.0);
+        const double slope =
+            (double(to.gain) - double(from.gain)) / std::max(double(to.split) - double(from.split), 1.0);
         for (Level i = from.split; i < to.split; ++i)
             more[i] = float(double(from.gain) - 1.0 + slope * double(i - from.split));
     }

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <vector>
 
+#include <pimg/detail/format.h>
 #include <pimg/detail/parallel.h>
 #include <pimg/threads.h>
-#include <pimg/detail/format.h>
 
 #include "source/float_copy.h"
 
@@ -51,8 +51,9 @@ ImageBuf srgb_encoded(const ImageBuf& src, int nthreads)
     const OIIO::ImageSpec& spec = dst.spec();
     if (copied && dst.localpixels() != nullptr)
         for_rows(pool_loop(nthreads), 0, spec.height * std::max(spec.depth, 1), [&](int row) {
-            encode_row(spec, static_cast<float*>(dst.localpixels())
-                                 + std::size_t(row) * std::size_t(spec.width) * std::size_t(spec.nchannels));
+            encode_row(spec,
+                       static_cast<float*>(dst.localpixels())
+                           + std::size_t(row) * std::size_t(spec.width) * std::size_t(spec.nchannels));
         });
     declare_space(dst.specmod(), "sRGB");
     return dst;

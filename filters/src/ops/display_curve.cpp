@@ -53,7 +53,7 @@ HWY_INLINE void into_gamut(Vector y, Pixels& p)
 {
     const Vector zero = set(0.0f), one = set(1.0f);
     const Vector least = hn::Min(hn::Min(p.r, p.g), p.b), most = hn::Max(hn::Max(p.r, p.g), p.b);
-    const auto below = least < zero, above = most > one, outside = hn::Or(below, above);
+    const auto below = least<zero, above = most> one, outside = hn::Or(below, above);
     if (hn::AllFalse(Lanes(), outside))
         return;
     Vector share = hn::IfThenElse(above, (one - y) / (most - y), one);
@@ -78,8 +78,7 @@ HWY_INLINE void fit(Vector from, Vector y, Pixels& p)
 
 HWY_INLINE void recolour_vector(const Recolour& how, Vector compressed, Vector guide, Pixels& p)
 {
-    const Vector factor =
-        exp2(set(how.slope) * compressed - guide * set(1.0f / kUnitsPerStop) + set(how.offset));
+    const Vector factor = exp2(set(how.slope) * compressed - guide * set(1.0f / kUnitsPerStop) + set(how.offset));
     const Vector from = luminance(how, p);
     const auto lit = from > set(0.0f);
     if (how.saturation != 1.0f)

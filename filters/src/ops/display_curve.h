@@ -30,7 +30,8 @@ struct Recolour {
 /// Recolours `count` linear RGB triples in place, from their compressed and their scene's log luminances.
 void recolour(const Recolour& how, const float* compressed, const float* guide, std::size_t count, float* rgb);
 
-/// From log2 of display luminances, before the shoulder, to their cube roots behind it, which are lightness but for constants.
+/// From log2 of display luminances, before the shoulder, to their cube roots behind it, which are lightness but for
+/// constants.
 void lightness_in_place(const Shoulder& shoulder, float* stops, std::size_t count);
 
 }  // namespace pimg

@@ -11,10 +11,11 @@ namespace pimg {
 
 namespace {
 
-/// The base is scaled so that the picture would fill this many stops; what a display has beyond that goes to the details.
+/// The base is scaled so that the picture would fill this many stops; what a display has beyond that goes to the
+/// details.
 constexpr float kCompressedStops = 4.6f;
 constexpr float kLeastS0 = 0.05f;
-constexpr float kDmaxOfRange = 0.5f;  ///< largest detail as a share of the dynamic range
+constexpr float kDmaxOfRange = 0.5f;   ///< largest detail as a share of the dynamic range
 constexpr float kMostContrast = 1.4f;  ///< of what is compressed: 6.4 stops, about those of a good photographic print
 constexpr double kWhiteQuantile = 0.999;
 constexpr double kMeanLuminance = 0.2;  ///< the picture is as light as that on the whole
@@ -44,8 +45,10 @@ float shoulder_white(const HdrCompressOptions& options)
 
 namespace {
 
-/// Mean of the cube root of display luminance, which is lightness but for constants. `scratch` is as large as the overview.
-double mean_lightness(const std::vector<float>& overview, const HdrCompressOptions& options, std::vector<float>& scratch)
+/// Mean of the cube root of display luminance, which is lightness but for constants. `scratch` is as large as the
+/// overview.
+double mean_lightness(const std::vector<float>& overview, const HdrCompressOptions& options,
+                      std::vector<float>& scratch)
 {
     const float offset = std::log2(kMiddleGrey) - options.contrast * std::log2(options.key);
     std::transform(overview.begin(), overview.end(), scratch.begin(),

@@ -2,8 +2,8 @@
 // The partition of the picture by the vertices of one level (paper, section 4.2).
 #include <pimg/dual_pieces.h>
 
-#include <pimg/imagebufalgo.h>
 #include <pimg/detail/format.h>
+#include <pimg/imagebufalgo.h>
 
 #include "ops/partition.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Feature-preserving low-pass: by strength, or as in the paper (section 4.1), where the details of all but the first splits
-// are left out, and the residual, the finest band, unless nothing is.
-#include <pimg/imagebufalgo.h>
-#include <pimg/detail/parallel.h>
+// Feature-preserving low-pass: by strength, or as in the paper (section 4.1), where the details of all but the first
+// splits are left out, and the residual, the finest band, unless nothing is.
 #include <pimg/detail/format.h>
+#include <pimg/detail/parallel.h>
+#include <pimg/imagebufalgo.h>
 
 #include <cmath>
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // HDR compression (paper, section 5.1):
 //   log luminance ──gains──▶ compressed ──exposure──▶ display luminance ──colour ratio──▶ display RGB
-#include <pimg/imagebufalgo.h>
 #include <pimg/detail/format.h>
+#include <pimg/imagebufalgo.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "source/contrast_envelope.h"
-#include "ops/display_fit.h"
 #include "frame/image_filter.h"
+#include "ops/display_fit.h"
+#include "source/contrast_envelope.h"
 #include "source/overview.h"
 
 namespace pimg {
@@ -98,7 +98,7 @@ public:
     {
         const Colour& colour = data.colour;
         m_in_place = data.spec.nchannels == 3 && colour.count() == 3 && !colour.encoded() && colour.channel(0) == 0
-                     && colour.channel(1) == 1;
+            && colour.channel(1) == 1;
     }
 
     void render(int y, const OIIO::ROI& roi, float* row) const
@@ -122,12 +122,12 @@ private:
         const HdrCompressOptions& options = compressed.options;
         const float reference = std::log2(compressed.luminance->reference);
         const float compressed_ref = compressed_reference(options, compressed.luminance->reference);
-        Recolour r { colour.weights(), 1.0f / kUnitsPerStop, compressed_ref - reference, options.saturation, options.fit,
-                     Shoulder(options.fit ? shoulder_white(options) : 1.0f) };
+        Recolour r { colour.weights(),   1.0f / kUnitsPerStop, compressed_ref - reference,
+                     options.saturation, options.fit,          Shoulder(options.fit ? shoulder_white(options) : 1.0f) };
         if (options.fit) {
             r.slope = options.contrast / kUnitsPerStop;
             r.offset = options.contrast * (compressed_ref - std::log2(options.key)) + std::log2(kMiddleGrey)
-                       + options.exposure - reference;
+                + options.exposure - reference;
         }
         return r;
     }

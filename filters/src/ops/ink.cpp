@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include <pimg/detail/format.h>
 #include <pimg/ink.h>
 #include <pimg/paint.h>
-#include <pimg/detail/format.h>
 
 #include "frame/image_filter.h"
 #include "ops/painting.h"

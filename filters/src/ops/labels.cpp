@@ -26,14 +26,22 @@ bool write_as(OIIO::ImageBuf& dst, OIIO::ROI roi, const Index* labels, std::size
 double largest_label(TypeDesc type)
 {
     switch (type.basetype) {
-    case TypeDesc::UINT8: return 255.0;
-    case TypeDesc::INT8: return 127.0;
-    case TypeDesc::UINT16: return 65535.0;
-    case TypeDesc::INT16: return 32767.0;
-    case TypeDesc::INT32: return 2147483647.0;
-    case TypeDesc::HALF: return 2048.0;
-    case TypeDesc::FLOAT: return 16777216.0;
-    default: return 4294967295.0;
+    case TypeDesc::UINT8:
+        return 255.0;
+    case TypeDesc::INT8:
+        return 127.0;
+    case TypeDesc::UINT16:
+        return 65535.0;
+    case TypeDesc::INT16:
+        return 32767.0;
+    case TypeDesc::INT32:
+        return 2147483647.0;
+    case TypeDesc::HALF:
+        return 2048.0;
+    case TypeDesc::FLOAT:
+        return 16777216.0;
+    default:
+        return 4294967295.0;
     }
 }
 
@@ -41,20 +49,32 @@ bool write_labels(OIIO::ImageBuf& dst, OIIO::ROI roi, const Index* labels, std::
 {
     const TypeDesc type = dst.spec().format;
     if (double(count) - 1.0 > largest_label(type)) {
-        set_error(dst, format("{} labels: expected at most {} in pixels of type {}", count, largest_label(type) + 1.0, type));
+        set_error(
+            dst, format("{} labels: expected at most {} in pixels of type {}", count, largest_label(type) + 1.0, type));
         return false;
     }
     switch (type.basetype) {
-    case TypeDesc::UINT8: return write_as<std::uint8_t>(dst, roi, labels, stride);
-    case TypeDesc::INT8: return write_as<std::int8_t>(dst, roi, labels, stride);
-    case TypeDesc::UINT16: return write_as<std::uint16_t>(dst, roi, labels, stride);
-    case TypeDesc::INT16: return write_as<std::int16_t>(dst, roi, labels, stride);
-    case TypeDesc::UINT32: return write_as<std::uint32_t>(dst, roi, labels, stride);
-    case TypeDesc::INT32: return write_as<std::int32_t>(dst, roi, labels, stride);
-    case TypeDesc::HALF: return write_as<half, float>(dst, roi, labels, stride);
-    case TypeDesc::FLOAT: return write_as<float>(dst, roi, labels, stride);
-    case TypeDesc::DOUBLE: return write_as<double>(dst, roi, labels, stride);
-    default: set_error(dst, format("labels cannot be stored in pixels of type {}", type)); return false;
+    case TypeDesc::UINT8:
+        return write_as<std::uint8_t>(dst, roi, labels, stride);
+    case TypeDesc::INT8:
+        return write_as<std::int8_t>(dst, roi, labels, stride);
+    case TypeDesc::UINT16:
+        return write_as<std::uint16_t>(dst, roi, labels, stride);
+    case TypeDesc::INT16:
+        return write_as<std::int16_t>(dst, roi, labels, stride);
+    case TypeDesc::UINT32:
+        return write_as<std::uint32_t>(dst, roi, labels, stride);
+    case TypeDesc::INT32:
+        return write_as<std::int32_t>(dst, roi, labels, stride);
+    case TypeDesc::HALF:
+        return write_as<half, float>(dst, roi, labels, stride);
+    case TypeDesc::FLOAT:
+        return write_as<float>(dst, roi, labels, stride);
+    case TypeDesc::DOUBLE:
+        return write_as<double>(dst, roi, labels, stride);
+    default:
+        set_error(dst, format("labels cannot be stored in pixels of type {}", type));
+        return false;
     }
 }
 

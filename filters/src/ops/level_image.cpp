@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include <pimg/detail/format.h>
 #include <pimg/imagebufalgo.h>
 #include <pimg/rasterize.h>
-#include <pimg/detail/format.h>
 
 #include "frame/image_filter.h"
 

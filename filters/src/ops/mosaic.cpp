@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include <pimg/mosaic.h>
 #include <pimg/detail/format.h>
+#include <pimg/mosaic.h>
 
 #include "frame/image_filter.h"
 #include "ops/painting.h"

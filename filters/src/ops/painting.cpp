@@ -36,7 +36,8 @@ float stored_scale(const ProgressiveImage::Data& data)
     return most > 0.0f ? 256.0f / most : 1.0f;
 }
 
-/// Logarithms of the channels, each at most some stops from the luminance, which the guide has cleaned of what has none.
+/// Logarithms of the channels, each at most some stops from the luminance, which the guide has cleaned of what has
+/// none.
 OwnedPlanes log_planes(const ProgressiveImage::Data& data, const LogLuminance& luminance, const ParallelFor& parallel)
 {
     const int width = data.source.spec().width, height = data.source.spec().height;

@@ -24,9 +24,9 @@ struct OwnedPlanes {
 /// The colour channels of the picture as stored, over the mesh's pixels.
 OwnedPlanes stored_planes(const ProgressiveImage::Data& data);
 
-/// Up to three channels in steps of an 8-bit picture. Of a log guide, whose picture holds light: the logarithm, so that shadows count
-/// as lights do, 1/6 of the range to a stop. Else the samples as stored, 256 to an integer format's range or to
-/// the brightest but a thousandth.
+/// Up to three channels in steps of an 8-bit picture. Of a log guide, whose picture holds light: the logarithm, so that
+/// shadows count as lights do, 1/6 of the range to a stop. Else the samples as stored, 256 to an integer format's range
+/// or to the brightest but a thousandth.
 bool eye_planes(ProgressiveImage::Data& data, const ParallelFor& parallel, OwnedPlanes& planes, std::string& error);
 
 /// Darkness of every mesh pixel as a display shows the picture: 1 is black, 0 white.

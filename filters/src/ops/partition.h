@@ -19,7 +19,7 @@ struct Partition {
 bool prepare_partition(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, const std::string& output);
 
 /// Writes the output to `dst`. False, with an error there, if its pixels cannot hold the labels.
-bool write_partition(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, OIIO::ROI roi, const ParallelFor& parallel,
-                     const Partition& partition, const std::string& output);
+bool write_partition(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, OIIO::ROI roi,
+                     const ParallelFor& parallel, const Partition& partition, const std::string& output);
 
 }  // namespace pimg

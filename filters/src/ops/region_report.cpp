@@ -16,7 +16,6 @@ namespace pimg {
 
 namespace {
 
-
 struct Region {
     double pixels = 0, x = 0, y = 0;
     int xmin = std::numeric_limits<int>::max(), ymin = xmin, xmax = -1, ymax = -1;

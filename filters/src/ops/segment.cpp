@@ -25,8 +25,7 @@ bool find_regions(ProgressiveImage::Data& data, const SegmentOptions& options, c
     const std::size_t pixels = data.spec.image_pixels();
     const bool by_threshold = options.threshold >= 0.0f;
     if (options.regions > 0 && std::size_t(options.regions) > pixels) {
-        error = format("regions={}: expected at most {}, the picture's pixels", options.regions,
-                                           pixels);
+        error = format("regions={}: expected at most {}, the picture's pixels", options.regions, pixels);
         return false;
     }
     const std::size_t wanted = std::min(std::size_t(options.regions > 0 ? options.regions : kDefaultRegions), pixels);

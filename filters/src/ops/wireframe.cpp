@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include <pimg/rasterize.h>
 #include <pimg/detail/format.h>
+#include <pimg/rasterize.h>
 
 #include "frame/image_filter.h"
 #include "ops/level_image.h"

@@ -14,7 +14,8 @@ PlannedBands::PlannedBands(SweepPlan&& made, const Bands& bands, const ParallelF
 {
 }
 
-std::vector<float> contrast_envelope(const PlannedBands& bands, float coherence, float range, const ParallelFor& parallel)
+std::vector<float> contrast_envelope(const PlannedBands& bands, float coherence, float range,
+                                     const ParallelFor& parallel)
 {
     const SweepPlan& plan = bands.plan;
     std::vector<float> envelope(plan.levels()), values(plan.places());

@@ -30,17 +30,18 @@ struct PlannedBands {
 /// the coarse mesh had beside it. Eq. (2) on each detail's own size compresses the step, but not the corrections, which
 /// then overshoot: halos and reversed gradients. Measured by the face it corrects, a correction of a steep
 /// face is as compressed as the face itself, and the texture on a plateau, whose faces are flat, is left alone.
-/// Why anything is inherited: the mesh of a coarse level is one of many that would do as well, and a gain that follows its
-/// accidents makes pictures that differ by one pixel, or by a scale, come out visibly different far away.
-std::vector<float> contrast_envelope(const PlannedBands& bands, float coherence, float range, const ParallelFor& parallel);
+/// Why anything is inherited: the mesh of a coarse level is one of many that would do as well, and a gain that follows
+/// its accidents makes pictures that differ by one pixel, or by a scale, come out visibly different far away.
+std::vector<float> contrast_envelope(const PlannedBands& bands, float coherence, float range,
+                                     const ParallelFor& parallel);
 
 /// The compressed bands at the finest level, in the places of the plan: the base scaled by gain.s0, both details of a
 /// split by the gain of its contrast in the envelope, or each by that of its own size if there is none.
 void compress(const PlannedBands& bands, const DetailGain& gain, const std::vector<float>* envelope,
               const ParallelFor& parallel, float* values);
 
-/// Adds the compressed residual to the compressed finest mesh: by the gain of its own size, or of `coherence` times the span of
-/// its face if that is larger. Both rasters are of the picture's size; nothing to do without a residual.
+/// Adds the compressed residual to the compressed finest mesh: by the gain of its own size, or of `coherence` times the
+/// span of its face if that is larger. Both rasters are of the picture's size; nothing to do without a residual.
 void compress_residual(const Hierarchy& hierarchy, const Bands& bands, const DetailGain& gain, float coherence,
                        const std::vector<float>& picture, std::vector<float>& compressed);
 

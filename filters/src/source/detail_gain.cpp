@@ -50,9 +50,7 @@ private:
 void gains_of(const DetailGain& parameters, float* contrasts, std::size_t count)
 {
     const Gain gain(parameters);
-    for_vectors(count, [&](std::size_t i, std::size_t n) {
-        store(gain(load(contrasts + i, n)), n, contrasts + i);
-    });
+    for_vectors(count, [&](std::size_t i, std::size_t n) { store(gain(load(contrasts + i, n)), n, contrasts + i); });
 }
 
 /// Both numbers of a detail at once: a vector of gains goes with two of details.

@@ -15,7 +15,8 @@ struct DetailGain {
     /// Turns `count` contrasts into their gains.
     void apply(float* contrasts, std::size_t count) const;
 
-    /// Multiplies `count` details by the gains of their contrasts, or, without contrasts, each t and u by that of its own size.
+    /// Multiplies `count` details by the gains of their contrasts, or, without contrasts, each t and u by that of its
+    /// own size.
     void apply(const Detail* details, const float* contrasts, std::size_t count, Detail* compressed) const;
 };
 

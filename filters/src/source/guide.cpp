@@ -19,9 +19,9 @@ constexpr double kFloorQuantile = 0.001;  ///< black is a stop below this quanti
 constexpr float kFloorBelowQuantile = 0.5f;
 constexpr float kFloorBelowMiddle = 0x1p-16f;  ///< ... but no more than 16 stops below the median
 constexpr double kCeilingQuantile = 0.9995;
-constexpr float kCeilingAbove = 0x1p8f;   ///< light sources may be 8 stops above that quantile
-constexpr double kHotQuantile = 0.999;    ///< a hot pixel is above this quantile ...
-constexpr float kHotRatio = 0x1p10f;      ///< ... and 10 stops above all its neighbours
+constexpr float kCeilingAbove = 0x1p8f;  ///< light sources may be 8 stops above that quantile
+constexpr double kHotQuantile = 0.999;   ///< a hot pixel is above this quantile ...
+constexpr float kHotRatio = 0x1p10f;     ///< ... and 10 stops above all its neighbours
 
 const float* pixel(const OIIO::ImageBuf& picture, int x, int y)
 {

@@ -30,7 +30,9 @@ void for_covered(int cell, int cells, int samples, Body&& body)
 Raster grid_for(const Raster& picture)
 {
     const int longer = std::max(picture.width, picture.height), cells = std::min(longer, kCells);
-    const auto cells_for = [&](int side) { return std::max(int(std::lround(double(side) * cells / longer)), 1); };
+    const auto cells_for = [&](int side) {
+        return std::max(int(std::lround(double(side) * cells / longer)), 1);
+    };
     Raster grid { cells_for(picture.width), cells_for(picture.height), {} };
     grid.samples.resize(std::size_t(grid.width) * std::size_t(grid.height));
     return grid;
@@ -78,7 +80,8 @@ Status look_from_afar(const LogLuminance& luminance, const ParallelFor& parallel
     SimplifyOptions options;
     options.parallel = parallel;
     std::vector<Bands> bands;
-    const Status status = simplify({ means.width, means.height, { { means.samples.data() } } }, options, overview.hierarchy, bands);
+    const Status status =
+        simplify({ means.width, means.height, { { means.samples.data() } } }, options, overview.hierarchy, bands);
     if (status)
         overview.bands = std::make_unique<PlannedBands>(SweepPlan(overview.hierarchy, parallel), bands[0], parallel);
     return status;

@@ -13,9 +13,9 @@
 #include <pimg/detail/parallel.h>
 #include <pimg/threads.h>
 
+#include "colour/lab.h"
 #include "source/contrast_envelope.h"
 #include "source/float_copy.h"
-#include "colour/lab.h"
 #include "source/progressive_image_data.h"
 
 namespace pimg {
@@ -81,8 +81,8 @@ bool parse_weights(const std::string& text, std::size_t channels, std::vector<fl
     const std::size_t given = text.empty() ? 0 : 1 + std::size_t(std::count(text.begin(), text.end(), ','));
     if (given == weights.size() && (given == 0 || given == channels))
         return true;
-    error = format("weights=\"{}\": expected {} number{} above 0, one for each channel of the guide", text,
-                                       channels, channels == 1 ? "" : "s");
+    error = format("weights=\"{}\": expected {} number{} above 0, one for each channel of the guide", text, channels,
+                   channels == 1 ? "" : "s");
     return false;
 }
 
@@ -212,7 +212,7 @@ Status ProgressiveImage::Data::simplify_guide(const std::vector<Raster>& channel
     SimplifyOptions simplify_options;
     simplify_options.base_faces = Index(options.base);
     simplify_options.metric = options.metric == "quadric" ? Metric::quadric
-                              : options.metric == "exact" ? Metric::exact
+        : options.metric == "exact"                       ? Metric::exact
                                                           : Metric::volume;
     simplify_options.parallel = parallel;
     simplify_options.progress = progress;
@@ -389,7 +389,9 @@ bool ProgressiveImage::build(const OIIO::ImageBuf& src, const BuildOptions& opti
 {
     return make(src, options, [&](Data& data, std::string& error) {
         const ParallelFor parallel = pool_loop(nthreads);
-        const auto simplify = [&](const auto& guide) { return data.simplify_guide(guide, parallel, progress); };
+        const auto simplify = [&](const auto& guide) {
+            return data.simplify_guide(guide, parallel, progress);
+        };
         return data.hierarchy_of_guide(simplify, parallel, error);
     });
 }

@@ -55,16 +55,15 @@ struct ProgressiveImage::Data {
     const Overview* overview(const ParallelFor& parallel, std::string& error);
 
     /// See contrast_envelope(). Kept for what it was last asked for.
-    std::shared_ptr<const std::vector<float>> envelope(const std::shared_ptr<const PlannedBands>& planned, float coherence,
-                                                       float range, const ParallelFor& parallel);
+    std::shared_ptr<const std::vector<float>> envelope(const std::shared_ptr<const PlannedBands>& planned,
+                                                       float coherence, float range, const ParallelFor& parallel);
 
     /// A vector that held a raster before, if one is left: new memory would have to be cleared for every new setting.
     std::vector<float> take_scratch();
     void keep_scratch(std::vector<float>&& scratch);
 
     /// Merges of the picture's pieces, fit for cuts into `regions` regions. Kept. Null, with an error, like the bands.
-    std::shared_ptr<const RegionTree> region_tree(std::size_t regions, const ParallelFor& parallel,
-                                                  std::string& error);
+    std::shared_ptr<const RegionTree> region_tree(std::size_t regions, const ParallelFor& parallel, std::string& error);
 
     std::size_t memory();
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the filters that work by strength need of a picture: its colour channels, as stored or their logarithms, ready for
-// core's smooth() and enhance().
+// What the filters that work by strength need of a picture: its colour channels, as stored or their logarithms, ready
+// for core's smooth() and enhance().
 #pragma once
 
 #include <string>

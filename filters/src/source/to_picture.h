@@ -8,8 +8,8 @@
 
 namespace pimg {
 
-/// From values of the finest level in vertex order to a raster of the picture's size, plus `factor` times the residual if
-/// given (of mesh pixels, or empty), times 2^exponent.
+/// From values of the finest level in vertex order to a raster of the picture's size, plus `factor` times the residual
+/// if given (of mesh pixels, or empty), times 2^exponent.
 std::vector<float> to_picture(const Hierarchy& hierarchy, const float* values, int exponent = 0,
                               const std::vector<float>* residual = nullptr, float factor = 1.0f);
 

@@ -23,8 +23,8 @@ struct PaintSettings {
     /// as far as the pixel is on the stroke's side of the edge, and so ends exactly where the picture's edge does,
     /// anti-aliased as it is there.
     const Planes* edges = nullptr;
-    /// What to show of the canvas's size and channels where strokes leave holes, or null to leave them: along edges that stop
-    /// the paint a few pixels may get none. Gaps between the hairs of a brush stay.
+    /// What to show of the canvas's size and channels where strokes leave holes, or null to leave them: along edges
+    /// that stop the paint a few pixels may get none. Gaps between the hairs of a brush stay.
     const Planes* ground = nullptr;
     float crossing = 14.0f;  ///< differences below this are no edge
     ParallelFor parallel;

@@ -18,8 +18,9 @@ constexpr std::int32_t k = kSubpixels;
 Mesh square()
 {
     Mesh mesh;
-    const Status s = Mesh::from_triangles({ { 0, 0 }, { 4 * k, 0 }, { 4 * k, 4 * k }, { 0, 4 * k }, { 2 * k, 2 * k } },
-                                          { { 0, 1, 4 }, { 1, 2, 4 }, { 2, 3, 4 }, { 3, 0, 4 } }, { 4 * k, 4 * k }, mesh);
+    const Status s =
+        Mesh::from_triangles({ { 0, 0 }, { 4 * k, 0 }, { 4 * k, 4 * k }, { 0, 4 * k }, { 2 * k, 2 * k } },
+                             { { 0, 1, 4 }, { 1, 2, 4 }, { 2, 3, 4 }, { 3, 0, 4 } }, { 4 * k, 4 * k }, mesh);
     EXPECT_TRUE(s.ok()) << s.error();
     return mesh;
 }

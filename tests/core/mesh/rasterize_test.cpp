@@ -14,14 +14,18 @@ Mesh two_triangles(int width, int height)
 {
     Mesh mesh;
     const Point far { (width - 1) * k, (height - 1) * k };
-    EXPECT_TRUE(Mesh::from_triangles({ { 0, 0 }, { far.x, 0 }, far, { 0, far.y } }, { { 0, 1, 2 }, { 0, 2, 3 } }, far, mesh).ok());
+    EXPECT_TRUE(
+        Mesh::from_triangles({ { 0, 0 }, { far.x, 0 }, far, { 0, far.y } }, { { 0, 1, 2 }, { 0, 2, 3 } }, far, mesh)
+            .ok());
     return mesh;
 }
 
 TEST(Rasterize, ReproducesALinearFunction)
 {
     const Mesh mesh = two_triangles(37, 21);
-    const auto f = [](double x, double y) { return float(2.0 + 0.5 * x - 0.25 * y); };
+    const auto f = [](double x, double y) {
+        return float(2.0 + 0.5 * x - 0.25 * y);
+    };
     const float z[4] = { f(0, 0), f(36, 0), f(36, 20), f(0, 20) };
     std::vector<float> out(37 * 21, -1.0f);
     EXPECT_EQ(rasterize(mesh, { z }, { out.data() }), 0u);

@@ -172,7 +172,9 @@ TEST(Adaptive, StopsWhenAsked)
         InitialMesh copy = initial;
         SimplifyOptions options;
         options.initial = &copy;
-        options.progress = [=](float done) { return done < at; };
+        options.progress = [=](float done) {
+            return done < at;
+        };
         Hierarchy h;
         std::vector<Bands> bands;
         EXPECT_FALSE(simplify(guide_of(p), options, h, bands).ok()) << at;

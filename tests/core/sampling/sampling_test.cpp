@@ -52,8 +52,8 @@ Index next_edge(Index e)
             return ::testing::AssertionFailure() << "empty or flipped triangle " << e / 3;
         area += doubled_area(a, b, c);
         const Index twin = mesh.twins[e];
-        const bool on_side = (a.x == b.x && (a.x == 0 || a.x == mesh.width - 1))
-                             || (a.y == b.y && (a.y == 0 || a.y == mesh.height - 1));
+        const bool on_side =
+            (a.x == b.x && (a.x == 0 || a.x == mesh.width - 1)) || (a.y == b.y && (a.y == 0 || a.y == mesh.height - 1));
         if ((twin == kGhost) != on_side)
             return ::testing::AssertionFailure() << "open edge inside, or closed one on the side: " << e;
         if (twin != kGhost && (mesh.twins[twin] != e || mesh.corners[twin] != mesh.corners[next_edge(e)]))
@@ -78,8 +78,8 @@ bool in_circle(Point a, Point b, Point c, Point d)
     __extension__ using Wide = __int128;
     const Wide ax = a.x - d.x, ay = a.y - d.y, bx = b.x - d.x, by = b.y - d.y, cx = c.x - d.x, cy = c.y - d.y;
     return (ax * ax + ay * ay) * (bx * cy - cx * by) + (bx * bx + by * by) * (cx * ay - ax * cy)
-               + (cx * cx + cy * cy) * (ax * by - bx * ay)
-           > 0;
+        + (cx * cx + cy * cy) * (ax * by - bx * ay)
+        > 0;
 }
 
 /// Number of triangles whose circle holds another vertex.
@@ -141,7 +141,9 @@ TEST(Delaunay, FullGridTakesTheDiagonalOfTheSmallerJump)
         const Point a = mesh.pixel(mesh.corners[e]), b = mesh.pixel(mesh.corners[next_edge(e)]);
         if (std::abs(a.x - b.x) + std::abs(a.y - b.y) < 2)
             continue;
-        const auto at = [&](int x, int y) { return p.samples[std::size_t(y * p.width + x)]; };
+        const auto at = [&](int x, int y) {
+            return p.samples[std::size_t(y * p.width + x)];
+        };
         EXPECT_LE(std::fabs(at(a.x, a.y) - at(b.x, b.y)), std::fabs(at(a.x, b.y) - at(b.x, a.y)));
     }
 }
@@ -169,14 +171,38 @@ TEST(Sampling, HostileControlMaps)
     const Picture p = test::scene(width, height);
     const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
     const std::vector<std::pair<const char*, std::function<float(int, int)>>> maps {
-        { "constant", [](int, int) { return 3.0f; } },
-        { "zero", [](int, int) { return 0.0f; } },
-        { "one bright pixel", [](int x, int y) { return x == 60 && y == 41 ? 1.0f : 0.0f; } },
-        { "line", [](int, int y) { return y == 40 ? 1.0f : 0.0f; } },
-        { "diagonal", [](int x, int y) { return x == y ? 1.0f : 0.0f; } },
-        { "border", [=](int x, int y) { return x == 0 || y == 0 || x == width - 1 || y == height - 1 ? 1.0f : 0.0f; } },
-        { "half", [](int x, int) { return x < 60 ? 1.0f : 0.0f; } },
-        { "not a number", [=](int x, int y) { return (x + y) % 3 == 0 ? nan : (x + y) % 3 == 1 ? inf : -1.0f; } },
+        { "constant",
+          [](int, int) {
+              return 3.0f;
+          } },
+        { "zero",
+          [](int, int) {
+              return 0.0f;
+          } },
+        { "one bright pixel",
+          [](int x, int y) {
+              return x == 60 && y == 41 ? 1.0f : 0.0f;
+          } },
+        { "line",
+          [](int, int y) {
+              return y == 40 ? 1.0f : 0.0f;
+          } },
+        { "diagonal",
+          [](int x, int y) {
+              return x == y ? 1.0f : 0.0f;
+          } },
+        { "border",
+          [=](int x, int y) {
+              return x == 0 || y == 0 || x == width - 1 || y == height - 1 ? 1.0f : 0.0f;
+          } },
+        { "half",
+          [](int x, int) {
+              return x < 60 ? 1.0f : 0.0f;
+          } },
+        { "not a number",
+          [=](int x, int y) {
+              return (x + y) % 3 == 0 ? nan : (x + y) % 3 == 1 ? inf : -1.0f;
+          } },
     };
     for (const auto& [name, f] : maps)
         for (double density : { 1.0, 0.33, 0.1, 0.01, 1e-4, 1e-12 }) {
@@ -252,7 +278,9 @@ TEST(Sampling, RefusesWhatMakesNoSense)
     }
     EXPECT_FALSE(sample({ 1, 20, guide_of(p).channels }, {}, mesh).ok());
     SamplingOptions stop;
-    stop.progress = [](float) { return false; };
+    stop.progress = [](float) {
+        return false;
+    };
     EXPECT_FALSE(sample(guide_of(p), stop, mesh).ok());
 }
 

@@ -32,8 +32,9 @@ std::size_t hash_of(const test::Picture& p, std::size_t channels)
 
 TEST(Simd, EveryTargetGivesTheSameBits)
 {
-    const test::Picture pictures[] = { test::scene(170, 150),
-                                       test::make("noise", 90, 90, [](int x, int y) { return 255 * test::noise(x, y); }) };
+    const test::Picture pictures[] = { test::scene(170, 150), test::make("noise", 90, 90, [](int x, int y) {
+                                           return 255 * test::noise(x, y);
+                                       }) };
     std::size_t expected[2] = {};
     test::on_every_target([&](int tried, const char* target) {
         for (int i = 0; i < 2; ++i) {

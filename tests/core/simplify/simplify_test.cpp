@@ -42,7 +42,7 @@ double volume(const Mesh& mesh, const std::vector<float>& z)
     double sum = 0;
     for (const Triangle& t : mesh.triangles())
         sum += double(doubled_area(mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2])))
-               * (double(z[t[0]]) + z[t[1]] + z[t[2]]) / 6.0;
+            * (double(z[t[0]]) + z[t[1]] + z[t[2]]) / 6.0;
     return sum / (double(mesh.extent().x) * mesh.extent().y);
 }
 
@@ -70,7 +70,8 @@ TEST(Simplify, HierarchiesAreValidAndExact)
 
 TEST(Simplify, IntegersComeBackBitEqual)
 {
-    const Picture p = test::make("16 bit", 90, 60, [](int x, int y) { return std::nearbyint(65535 * test::noise(x, y)); });
+    const Picture p =
+        test::make("16 bit", 90, 60, [](int x, int y) { return std::nearbyint(65535 * test::noise(x, y)); });
     const Built b = build(p);
     std::vector<float> out(p.samples.size());
     synthesise(b.hierarchy, b.bands, out.data());
@@ -170,7 +171,9 @@ TEST(Simplify, StopsWhenAsked)
 {
     const Picture p = test::scene(100, 100);
     SimplifyOptions options;
-    options.progress = [](float done) { return done < 0.3f; };
+    options.progress = [](float done) {
+        return done < 0.3f;
+    };
     Hierarchy h;
     std::vector<Bands> bands;
     EXPECT_FALSE(simplify({ p.width, p.height, { { p.samples.data() } } }, options, h, bands).ok());
@@ -192,8 +195,12 @@ TEST(Simplify, RefusesNothingAndTooMuch)
 /// Two halves of equal luma and opposite colour: 0.5 r + 0.5 g is the same everywhere.
 std::vector<Picture> equal_luma_edge()
 {
-    const auto wavy = [](int x, int y) { return float(x) + 6.0f * std::sin(0.15f * float(y)) < 48.0f; };
-    const auto texture = [](int x, int y) { return 4.0f * test::noise(std::uint32_t(x), std::uint32_t(y)); };
+    const auto wavy = [](int x, int y) {
+        return float(x) + 6.0f * std::sin(0.15f * float(y)) < 48.0f;
+    };
+    const auto texture = [](int x, int y) {
+        return 4.0f * test::noise(std::uint32_t(x), std::uint32_t(y));
+    };
     return { test::make("r", 96, 96, [&](int x, int y) { return (wavy(x, y) ? 180.0f : 60.0f) + texture(x, y); }),
              test::make("g", 96, 96, [&](int x, int y) { return (wavy(x, y) ? 60.0f : 180.0f) + texture(x, y); }) };
 }
@@ -207,7 +214,8 @@ TEST(Simplify, SeveralChannelsShareOneGeometryAndKeepTheirEdges)
     Hierarchy grey, colour;
     std::vector<Bands> grey_bands, colour_bands;
     ASSERT_TRUE(simplify({ 96, 96, { { luma.data() } } }, {}, grey, grey_bands).ok());
-    ASSERT_TRUE(simplify({ 96, 96, { { p[0].samples.data() }, { p[1].samples.data() } } }, {}, colour, colour_bands).ok());
+    ASSERT_TRUE(
+        simplify({ 96, 96, { { p[0].samples.data() }, { p[1].samples.data() } } }, {}, colour, colour_bands).ok());
     EXPECT_TRUE(validate(colour).ok()) << validate(colour).error();
     ASSERT_TRUE(analyse(grey, { p[0].samples.data(), p[1].samples.data() }, grey_bands).ok());
     const auto error = [&](const Hierarchy& h, const std::vector<Bands>& bands) {

@@ -14,7 +14,8 @@ class BandsOnScene : public testing::Test {
 protected:
     void SetUp() override
     {
-        ASSERT_TRUE(simplify({ picture.width, picture.height, { { picture.samples.data() } } }, {}, hierarchy, built).ok());
+        ASSERT_TRUE(
+            simplify({ picture.width, picture.height, { { picture.samples.data() } } }, {}, hierarchy, built).ok());
         guide = built[0];
     }
     const test::Picture picture = test::scene(120, 90);
@@ -31,7 +32,7 @@ TEST_F(BandsOnScene, AnalysisOfTheGuideAgreesWithTheEngine)
     for (std::size_t i = 0; i < bands[0].details.size(); ++i) {
         sum += std::fabs(guide.details[i].t) + std::fabs(guide.details[i].u);
         difference += std::fabs(guide.details[i].t - bands[0].details[i].t)
-                      + std::fabs(guide.details[i].u - bands[0].details[i].u);
+            + std::fabs(guide.details[i].u - bands[0].details[i].u);
     }
     EXPECT_LT(difference, 1e-4 * sum);
 }
@@ -39,7 +40,8 @@ TEST_F(BandsOnScene, AnalysisOfTheGuideAgreesWithTheEngine)
 TEST_F(BandsOnScene, SynthesisUndoesAnalysisOfOtherChannels)
 {
     const test::Picture noise = test::make("noise", 120, 90, [](int x, int y) { return test::noise(x, y, 7); });
-    const test::Picture ramp = test::make("ramp", 120, 90, [](int x, int y) { return 0.3f * float(x) - 0.1f * float(y); });
+    const test::Picture ramp =
+        test::make("ramp", 120, 90, [](int x, int y) { return 0.3f * float(x) - 0.1f * float(y); });
     std::vector<Bands> bands;
     ASSERT_TRUE(analyse(hierarchy, { noise.samples.data(), ramp.samples.data() }, bands).ok());
     std::vector<float> out(hierarchy.mesh_pixels());
@@ -56,7 +58,9 @@ TEST_F(BandsOnScene, SynthesisUndoesAnalysisOfOtherChannels)
 TEST_F(BandsOnScene, GainOneIsTheSweepWithoutGain)
 {
     std::vector<float> a(hierarchy.vertices()), b(hierarchy.mesh_pixels()), c(hierarchy.mesh_pixels());
-    sweep(hierarchy, guide, a.data(), hierarchy.levels(), [](Level, Detail d) { return Detail { d.t * 1.0f, d.u * 1.0f }; });
+    sweep(hierarchy, guide, a.data(), hierarchy.levels(), [](Level, Detail d) {
+        return Detail { d.t * 1.0f, d.u * 1.0f };
+    });
     scatter(hierarchy, a.data(), b.data());
     synthesise(hierarchy, guide, c.data());
     EXPECT_EQ(b, c);

@@ -126,7 +126,8 @@ TEST(Filters, S0OneIsTheSource)
 
 TEST(Filters, LowPassAndEnhancementKeepTheMeanOfTheSurface)
 {
-    // Details sum to nothing over the surface, so a filter on them leaves the mean; pixels differ by the border's weight.
+    // Details sum to nothing over the surface, so a filter on them leaves the mean; pixels differ by the border's
+    // weight.
     const ImageBuf src = hdr_scene(96, 64, OIIO::TypeFloat, 1);
     const auto mean = [](const std::vector<float>& v) {
         double sum = 0;

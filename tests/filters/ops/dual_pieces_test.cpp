@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The dual_pieces filter: outputs, levels, awkward sources, errors. The pieces themselves: tests/core/dual_pieces_test.cpp.
+// The dual_pieces filter: outputs, levels, awkward sources, errors. The pieces themselves:
+// tests/core/dual_pieces_test.cpp.
 #include <pimg/imagebufalgo.h>
 
 #include <algorithm>

@@ -93,7 +93,8 @@ TEST(Guide, TheChannelThatWeighsMoreIsKeptBetter)
             const float p[3] = { scene(x, y, 96, 64) / 255.0f, 0.5f, scene(95 - x, 63 - y, 96, 64) / 255.0f };
             src.setpixel(x, y, p);
         }
-    const ImageBuf red = level_of(src, guided("rgb", "30,1,1"), 0.05f), blue = level_of(src, guided("rgb", "1,1,30"), 0.05f);
+    const ImageBuf red = level_of(src, guided("rgb", "30,1,1"), 0.05f),
+                   blue = level_of(src, guided("rgb", "1,1,30"), 0.05f);
     EXPECT_GT(psnr(src, red, 0), psnr(src, blue, 0) + 1.0);
     EXPECT_GT(psnr(src, blue, 2), psnr(src, red, 2) + 1.0);
 }
@@ -101,8 +102,12 @@ TEST(Guide, TheChannelThatWeighsMoreIsKeptBetter)
 TEST(Guide, WeightsAreCheckedAgainstTheGuide)
 {
     const ImageBuf src = hdr_scene(16, 16);
-    for (const auto& [guide, weights] : { std::pair("rgb", "1,2"), { "rgb", "1,2,0" }, { "rgb", "1,x,1" }, { "rgb", "1,1,1," },
-                                          { "luma", "1,1,1" }, { "lab", "1,-1,1" } }) {
+    for (const auto& [guide, weights] : { std::pair("rgb", "1,2"),
+                                          { "rgb", "1,2,0" },
+                                          { "rgb", "1,x,1" },
+                                          { "rgb", "1,1,1," },
+                                          { "luma", "1,1,1" },
+                                          { "lab", "1,-1,1" } }) {
         ProgressiveImage progressive;
         EXPECT_FALSE(progressive.build(src, guided(guide, weights))) << weights;
         EXPECT_NE(progressive.error().find("weights="), std::string::npos) << progressive.error();

@@ -13,8 +13,8 @@
 
 #include "core/pictures.h"
 #include "core/simd_targets.h"
-#include "source/detail_gain.h"
 #include "ops/display_curve.h"
+#include "source/detail_gain.h"
 #include "source/guide.h"
 
 namespace pimg {
@@ -90,14 +90,16 @@ TEST(FilterVectors, GainsOfContrasts)
         const std::vector<float> y = checked(contrasts, [&](float* v, std::size_t n) { gain.apply(v, n); });
         for (std::size_t i = 0; i < kCount; ++i) {
             const double rest = 1.0 - std::min(double(contrasts[i]) / 20.0, 1.0);
-            EXPECT_NEAR(double(y[i]), 0.2 + 0.8 * std::pow(rest, double(beta)), 1e-6 + 1e-7 * double(beta)) << beta << " " << contrasts[i];
+            EXPECT_NEAR(double(y[i]), 0.2 + 0.8 * std::pow(rest, double(beta)), 1e-6 + 1e-7 * double(beta))
+                << beta << " " << contrasts[i];
         }
     }
 }
 
 TEST(FilterVectors, CompressedDetails)
 {
-    const std::vector<float> contrasts = numbers(0.0f, 30.0f, 3), t = numbers(-25.0f, 25.0f, 4), u = numbers(-25.0f, 25.0f, 5);
+    const std::vector<float> contrasts = numbers(0.0f, 30.0f, 3), t = numbers(-25.0f, 25.0f, 4),
+                             u = numbers(-25.0f, 25.0f, 5);
     std::vector<Detail> details;
     for (std::size_t i = 0; i < kCount; ++i)
         details.push_back({ t[i], u[i] });

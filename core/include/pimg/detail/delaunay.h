@@ -7,7 +7,8 @@
 
 namespace pimg {
 
-/// Sign of whether d lies inside the circle through the positively oriented a, b, c: > 0 inside, 0 on it. Exact for coordinates below 2^20.
+/// Sign of whether d lies inside the circle through the positively oriented a, b, c: > 0 inside, 0 on it. Exact for
+/// coordinates below 2^20.
 int in_circle(Point a, Point b, Point c, Point d);
 
 /// Fills corners and twins of a mesh whose pixels are set; the guide decides ties.

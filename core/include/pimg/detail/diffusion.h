@@ -9,8 +9,8 @@
 
 namespace pimg {
 
-/// How values flow. Along an edge of the grid with difference d in the guide, being the root of the mean square over its
-/// channels, the conductance is
+/// How values flow. Along an edge of the grid with difference d in the guide, being the root of the mean square over
+/// its channels, the conductance is
 ///     1 / (1 + (d / contrast)^2)^2
 struct DiffusionOptions {
     int width = 0, height = 0;  ///< of all rasters
@@ -19,8 +19,8 @@ struct DiffusionOptions {
     ParallelFor parallel;       ///< the result does not depend on it
 };
 
-/// Diffuses every channel of `picture`, which may be the guide itself; the conductances are those of the guide as given.
-/// Mean-preserving, and never leaves the range of the picture by more than rounding after the last step.
+/// Diffuses every channel of `picture`, which may be the guide itself; the conductances are those of the guide as
+/// given. Mean-preserving, and never leaves the range of the picture by more than rounding after the last step.
 void diffuse(const Rasters& guide, const DiffusionOptions& options, const Rasters& picture, Rasters& result);
 
 }  // namespace pimg

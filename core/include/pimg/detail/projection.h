@@ -7,8 +7,8 @@
 namespace pimg {
 
 /// Face (s, a, b) of the star of s that holds `p`, and the weights of a and b. `ring` is that of s in
-/// the coarser mesh starting with vr of the split; the first face that holds p is taken, from exact integers: everybody who
-/// replays the splits finds the same stencil. `points` are the positions of the ring's vertices.
+/// the coarser mesh starting with vr of the split; the first face that holds p is taken, from exact integers: everybody
+/// who replays the splits finds the same stencil. `points` are the positions of the ring's vertices.
 struct Projection {
     Index a, b;
     float wa, wb;

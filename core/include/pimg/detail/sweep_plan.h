@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An order of the splits made for sweeping: the same arithmetic as sweep(), near in memory and for many threads.
 //
-// The values of a sweep lie as the pixels do, in square tiles, and splits are done tile by tile. A split that needs what
-// another tile makes waits for the next stage; so the tiles of one stage do not depend on each other. The first splits,
-// whose faces are larger than tiles, are a stage of their own.
+// The values of a sweep lie as the pixels do, in square tiles, and splits are done tile by tile. A split that needs
+// what another tile makes waits for the next stage; so the tiles of one stage do not depend on each other. The first
+// splits, whose faces are larger than tiles, are a stage of their own.
 #pragma once
 
 #include <cstddef>
@@ -29,10 +29,12 @@ struct SweepTask {
 
 class SweepPlan {
 public:
-    /// Takes as long as ten plain sweeps and keeps 44 bytes a split. Pictures a few pixels wide or high are left as they are.
+    /// Takes as long as ten plain sweeps and keeps 44 bytes a split. Pictures a few pixels wide or high are left as
+    /// they are.
     explicit SweepPlan(const Hierarchy& hierarchy, const ParallelFor& parallel = {});
 
-    /// No plan but the hierarchy's own order, which must stay: sweeps are plain ones. For who sweeps only once or twice.
+    /// No plan but the hierarchy's own order, which must stay: sweeps are plain ones. For who sweeps only once or
+    /// twice.
     static SweepPlan as_it_is(const Hierarchy& hierarchy);
 
     Level levels() const { return m_levels; }
@@ -56,7 +58,8 @@ public:
     void sweep(Level first, Level last, float* values, DetailOf&& detail_of) const;
 
     /// From places to mesh pixels (row-major), with those between vertices interpolated. `hierarchy` is the plan's.
-    void scatter(const Hierarchy& hierarchy, const float* values, float* samples, const ParallelFor& parallel = {}) const;
+    void scatter(const Hierarchy& hierarchy, const float* values, float* samples,
+                 const ParallelFor& parallel = {}) const;
 
     std::size_t memory() const;
 
@@ -66,7 +69,7 @@ private:
     Level m_levels = 0;
     std::size_t m_places = 0;
     const Hierarchy* m_as_it_is = nullptr;
-    std::vector<Index> m_base;  ///< places of the base vertices
+    std::vector<Index> m_base;   ///< places of the base vertices
     std::vector<Level> m_order;  ///< number of each split in the hierarchy
     std::unique_ptr<PlannedSplit[]> m_splits;
     std::vector<SweepTask> m_tasks;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pimg/detail/ring_edit.h>
 #include <pimg/detail/projection.h>
+#include <pimg/detail/ring_edit.h>
 
 #include "simplify/metrics/collapse_metric.h"
 

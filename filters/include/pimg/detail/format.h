@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// OpenImageIO's text formatting, compiled once: its own functions put all of fmt into every file that calls them, which is half
-// of the time such a file takes to compile.
+// OpenImageIO's text formatting, compiled once: its own functions put all of fmt into every file that calls them, which
+// is half of the time such a file takes to compile.
 #pragma once
 
 #include <string>
