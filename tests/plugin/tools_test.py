@@ -49,7 +49,7 @@ class Catalogue(plugin_files.PluginTest):
 
     @unittest.skipUnless(shutil.which("file"), "needs file")
     def test_file_knows_the_magic(self):
-        magic = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "core", "share", "pimg.magic")
+        magic = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "codec", "share", "pimg.magic")
         write("a.pimg", scene(20, 10), "uint8", {"pimg:profile": "full"})
         done = subprocess.run(["file", "-m", magic, "a.pimg"], capture_output=True, text=True)
         self.assertIn("Progressive image (PIMG) data, version 1.0, full, 20 x 10, 3 channels", done.stdout)
