@@ -16,6 +16,7 @@ packages=(
     python3-venv python3-matplotlib python3-markdown
     libgegl-dev gegl
     libgtest-dev libbenchmark-dev libcgal-dev
+    clang-format clang-tidy universal-ctags
     xvfb xauth binutils groff-base slurm-wlm munge blender-data
 )
 

@@ -13,9 +13,9 @@
 #include <pimg/detail/parallel.h>
 #include <pimg/threads.h>
 
-#include "colour/lab.h"
+#include "base/float_copy.h"
 #include "source/contrast_envelope.h"
-#include "source/float_copy.h"
+#include "source/lab.h"
 #include "source/progressive_image_data.h"
 
 namespace pimg {

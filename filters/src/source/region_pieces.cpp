@@ -5,7 +5,7 @@
 #include <pimg/dual_pieces.h>
 #include <pimg/regions.h>
 
-#include "colour/lab.h"
+#include "source/lab.h"
 #include "source/progressive_image_data.h"
 
 namespace pimg {

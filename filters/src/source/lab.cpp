@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "colour/lab.h"
+#include "source/lab.h"
 
 #include <cmath>
 #include <utility>

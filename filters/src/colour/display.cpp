@@ -8,7 +8,7 @@
 #include <pimg/detail/parallel.h>
 #include <pimg/threads.h>
 
-#include "source/float_copy.h"
+#include "base/float_copy.h"
 
 namespace pimg {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "source/float_copy.h"
+#include "base/float_copy.h"
 
 namespace pimg {
 

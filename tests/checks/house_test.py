@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Each check of the house finds what it is for, in small trees made for it, and nothing in what is right."""
+import os
+import shutil
+import tempfile
+import unittest
+
+import counts
+import includes
+import mirror
+from sources import Tree
+
+LICENCE = "// SPDX-License-Identifier: BSD-3-Clause\n"
+
+
+class InTree(unittest.TestCase):
+    def setUp(self):
+        self.root = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, self.root)
+
+    def tree(self, **files):
+        """A tree of files; in their names, __ stands for a slash and ends with the extension after the last _."""
+        for name, text in files.items():
+            path = os.path.join(self.root, ".".join(name.replace("__", "/").rsplit("_", 1)))
+            os.makedirs(os.path.dirname(path), exist_ok=True)
+            with open(path, "w", encoding="utf-8") as file:
+                file.write((LICENCE.replace("//", "#") if path.endswith(".py") else LICENCE) + text + "\n")
+        return Tree(self.root)
+
+    def assert_finds(self, findings, words):
+        self.assertEqual(len(findings), 1, findings)
+        self.assertIn(words, findings[0].text)
+
+
+class Includes(InTree):
+    def test_down_is_allowed(self):
+        tree = self.tree(core__src__sweep__bands_cpp="#include <pimg/bands.h>\n#include <pimg/mesh.h>\n#include <vector>",
+                         core__src__mesh__mesh_cpp="#include <pimg/mesh.h>\n#include <hwy/highway.h>",
+                         core__include__pimg__bands_h="#include <pimg/mesh.h>", core__include__pimg__mesh_h="",
+                         codec__src__encode_cpp="#include <pimg/bands.h>\n#include \"entropy/bytes.h\"",
+                         codec__src__entropy__bytes_h="#include <zstd.h>")
+        self.assertEqual(includes.check(tree), [])
+
+    def test_back_is_not(self):
+        tree = self.tree(core__src__mesh__mesh_cpp="#include <pimg/bands.h>", core__include__pimg__bands_h="",
+                         core__src__sweep__bands_cpp="")
+        self.assert_finds(includes.check(tree), "core/src/mesh includes core/include/pimg/bands.h of core/src/sweep")
+
+    def test_core_sees_no_codec_and_painting_no_filters(self):
+        tree = self.tree(core__src__mesh__mesh_cpp="#include <pimg/codec.h>", codec__include__pimg__codec_h="")
+        self.assert_finds(includes.check(tree), "core/src/mesh includes codec/include")
+        tree = self.tree(core__src__mesh__mesh_cpp="", painting__src__ink_cpp="#include <pimg/options.h>",
+                         filters__include__pimg__options_h="", filters__src__base__options_cpp="")
+        self.assert_finds(includes.check(tree), "painting includes filters/include")
+
+    def test_private_headers_by_quotes(self):
+        tree = self.tree(filters__src__colour__lab_h='#include "source/guide.h"', filters__src__source__guide_h="")
+        self.assert_finds(includes.check(tree), "filters/src/colour includes filters/src/source/guide.h")
+
+    def test_foreign_libraries_in_their_rooms(self):
+        for room, header in (("core__src__mesh", "zstd.h"), ("core__src__mesh", "OpenImageIO/imageio.h"),
+                             ("codec__src__raster", "zstd.h"), ("codec__src__entropy", "OpenImageIO/imageio.h"),
+                             ("filters__src__ops", "OpenColorIO/OpenColorIO.h"), ("painting__src", "hwy/highway.h"),
+                             ("tools", "OpenColorIO/OpenColorIO.h"), ("plugin", "zstd.h")):
+            findings = includes.check(self.tree(**{room + "__x_cpp": f"#include <{header}>"}))
+            self.assert_finds(findings, f"includes <{header}>")
+            os.remove(os.path.join(self.root, room.replace("__", "/"), "x.cpp"))
+        allowed = self.tree(filters__src__colour__x_cpp="#include <OpenColorIO/OpenColorIO.h>",
+                            capi__include__pimg__x_h="#include <stddef.h>")
+        self.assertEqual(includes.check(allowed), [])
+
+    def test_installed_headers_include_installed_ones(self):
+        tree = self.tree(core__include__pimg__mesh_h="#include <pimg/detail/ring_edit.h>", core__src__mesh__mesh_cpp="",
+                         core__include__pimg__detail__ring_edit_h="")
+        self.assert_finds(includes.check(tree), "not installed")
+
+    def test_a_header_nobody_placed(self):
+        findings = includes.check(self.tree(core__include__pimg__new_h=""))
+        self.assert_finds(findings, "belongs to no room")
+
+    def test_headers_that_do_not_exist(self):
+        self.assert_finds(includes.check(self.tree(plugin__x_cpp="#include <pimg/nowhere.h>")), "no folder has")
+
+
+class Counts(InTree):
+    def test_parameters_of_signatures(self):
+        for signature, count in (("()", 0), ("(void)", 0), ("(int a)", 1), ("(std::map<int,int> a,int (*f)(int,int))", 2),
+                                 ("(F f = g(1,2),int b) const", 2), ("(T a = {1,2})", 1)):
+            self.assertEqual(counts.parameter_count(signature), count, signature)
+
+    @unittest.skipUnless(shutil.which("ctags"), "Universal Ctags is not installed")
+    def test_long_functions_and_many_parameters(self):
+        body = "    f();\n" * counts.FUNCTION_LINES
+        self.assert_finds(counts.check(self.tree(core__src__x_cpp=f"void long_one()\n{{\n{body}}}")), "long_one has")
+        self.assertEqual(counts.check(self.tree(core__src__x_cpp="void f();", tests__x_cpp=f"void g()\n{{\n{body}}}")), [])
+        many = ", ".join(f"int p{i}" for i in range(counts.PARAMETERS + 1))
+        self.assert_finds(counts.check(self.tree(core__src__x_cpp=f"void wide({many})\n{{\n}}")), "wide has")
+
+    @unittest.skipUnless(shutil.which("ctags"), "Universal Ctags is not installed")
+    def test_parameters_of_public_functions(self):
+        many = ", ".join(f"int p{i}" for i in range(counts.PUBLIC_PARAMETERS + 1))
+        tree = self.tree(core__include__pimg__x_h=f"void wide({many});")
+        self.assert_finds(counts.check(tree), "wide is public")
+
+    def test_long_functions_of_python(self):
+        body = "    pass\n" * counts.FUNCTION_LINES
+        tree = self.tree(docs__x_py=f"def long_one():\n{body}")
+        self.assert_finds(counts.check(tree), "long_one has")
+
+    def test_long_files(self):
+        self.assert_finds(counts.check(self.tree(core__src__x_cpp="\n" * counts.FILE_LINES)), "are allowed")
+
+    def test_full_folders(self):
+        names = {f"core__src__mesh__x{i}_cpp": "" for i in range(counts.FOLDER_NOUNS)}
+        headers = {f"core__src__mesh__x{i}_h": "" for i in range(counts.FOLDER_NOUNS)}
+        self.assertEqual(counts.check(self.tree(**names, **headers)), [])
+        self.assert_finds(counts.check(self.tree(core__src__mesh__one_more_cpp="")), "nouns in one folder")
+
+    def test_licence_line(self):
+        tree = self.tree(core__src__x_cpp="")
+        open(os.path.join(self.root, "core/src/x.cpp"), "w", encoding="utf-8").close()
+        self.assert_finds(counts.check(tree), "licence")
+
+    def test_paths_of_one_machine(self):
+        self.assert_finds(counts.check(self.tree(core__src__x_cpp="// see /ho" + "me/someone/notes")), "one machine")
+        self.assertEqual(counts.check(self.tree(core__src__x_cpp="// see docs/home/page and /tmp/x")), [])
+
+
+class Mirror(InTree):
+    def test_a_source_has_a_test_or_is_listed(self):
+        tree = self.tree(core__src__mesh__mesh_cpp="", tests__core__mesh__other_cpp="", plugin__x_cpp="")
+        self.assert_finds(mirror.check(tree), "has no tests/core/mesh/mesh_test.cpp")
+        self.list_lines("core/src/mesh/mesh.cpp tests/core/mesh/other.cpp")
+        self.assertEqual(mirror.check(Tree(self.root)), [])
+
+    def test_the_list_is_true(self):
+        self.tree(core__src__mesh__mesh_cpp="", tests__core__mesh__mesh_test_cpp="")
+        for line, words in (("core/src/gone.cpp tests/core/mesh/mesh_test.cpp", "does not exist"),
+                            ("core/src/mesh/mesh.cpp tests/core/mesh/mesh_test.cpp", "of its own now")):
+            self.list_lines(line)
+            self.assert_finds(mirror.check(Tree(self.root)), words)
+
+    def list_lines(self, *lines):
+        os.makedirs(os.path.join(self.root, "tests/checks"), exist_ok=True)
+        with open(os.path.join(self.root, mirror.LIST), "w", encoding="utf-8") as file:
+            file.write("# a comment\n" + "\n".join(lines) + "\n")
+
+
+if __name__ == "__main__":
+    unittest.main()

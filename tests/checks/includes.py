@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The direction of includes: each room of the house sees only those below it. docs/architecture.md draws this picture."""
+import os
+import re
+
+from sources import CPP, Finding
+
+# A room is a folder, or one file by its name without extension, with the rooms it may include beside itself. The longest
+# name that begins a path is its room. Public headers belong to the room of the source of the same name (`HEADERS` names
+# those without one).
+ROOMS = {
+    "core/src/mesh": [],
+    "core/src/sweep": ["core/src/mesh"],
+    "core/src/sampling": ["core/src/mesh"],
+    "core/src/simplify": ["core/src/mesh", "core/src/sweep", "core/src/sampling"],
+    "core/src/pieces": ["core/src/mesh", "core/src/sweep"],
+    "core/src/smoothing": ["core/src/mesh", "core/src/sweep", "core/src/pieces"],
+    "codec/include": ["core"],
+    "codec/src/entropy": [],
+    "codec/src/raster": ["codec/include", "codec/src/entropy", "core"],
+    "codec/src/mesh_layer": ["codec/include", "codec/src/entropy", "core"],
+    "codec/src/sequence": ["codec/include", "codec/src/entropy", "codec/src/raster", "codec/src/mesh_layer", "core"],
+    "codec/src": ["codec", "core"],
+    "painting": ["core"],
+    "filters/src/base": ["core"],
+    "filters/src/colour": ["filters/src/base", "core"],
+    "filters/src/source": ["filters/src/base", "filters/src/colour", "core"],
+    "filters/src/frame": ["filters/src/base", "filters/src/colour", "filters/src/source", "core"],
+    "filters/src/ops": ["filters/src/base", "filters/src/colour", "filters/src/source", "filters/src/frame", "painting",
+                        "core"],
+    "filters/src": ["filters", "core"],
+    "plugin": ["filters", "codec", "core"],
+    "tools": ["plugin", "filters", "codec", "core"],
+    "python": ["plugin", "filters", "codec", "core"],
+    "capi": ["filters", "core"],
+    "gegl": ["filters", "core"],
+    "examples": ["filters", "core", "capi"],
+    "bench": ["filters", "painting", "codec", "core"],
+    "tests": ["plugin", "tools", "filters", "painting", "codec", "core", "capi"],
+}
+
+# Headers without a source of the same name.
+HEADERS = {
+    "codec/include/pimg/codec.h": "codec/include",
+    "core/include/pimg/guide.h": "core/src/mesh",
+    "core/include/pimg/ring.h": "core/src/mesh",
+    "core/include/pimg/types.h": "core/src/mesh",
+    "core/include/pimg/detail/flat_array.h": "core/src/mesh",
+    "core/include/pimg/detail/parallel.h": "core/src/mesh",
+    "core/include/pimg/detail/ring_edit.h": "core/src/mesh",
+    "filters/include/pimg/imagebufalgo.h": "filters/src/ops",
+}
+
+# Generated or umbrella headers, which belong to no room.
+GENERATED = {"pimg/version.h": "core"}
+
+# Everybody may use the standard library; of other libraries, these.
+FOREIGN = {
+    "core": ["hwy"],
+    "codec": [],
+    "codec/src/entropy": ["zstd.h"],
+    "painting": [],
+    "filters": ["OpenImageIO", "hwy"],
+    "filters/src/colour": ["OpenImageIO", "hwy", "OpenColorIO"],
+    "plugin": ["OpenImageIO"],
+    "tools": ["OpenImageIO", "boost"],
+    "python": ["OpenImageIO", "pybind11", "Python.h"],
+    "capi": ["OpenImageIO"],
+    "gegl": ["OpenImageIO", "gegl.h", "gegl-plugin.h", "glib.h", "glib-object.h"],
+    "examples": ["OpenImageIO"],
+    "bench": None,
+    "tests": None,
+    "fuzz": None,
+}
+
+PLATFORM = {"unistd.h", "fcntl.h", "sys", "signal.h", "malloc.h"}
+C = {"assert.h", "float.h", "limits.h", "math.h", "stdarg.h", "stdbool.h", "stddef.h", "stdint.h", "stdio.h",
+     "stdlib.h", "string.h"}
+INCLUDE = re.compile(r'\s*#\s*include\s*(?:<([^>]+)>|"([^"]+)")')
+LIBRARIES = ("core", "codec", "painting", "filters", "capi")
+
+
+def longest_prefix(path, names):
+    """The longest of `names` that is `path`, or a folder of it, or its name without extension; None if there is none."""
+    stem = os.path.splitext(path)[0]
+    found = [name for name in names if path == name or stem == name or path.startswith(name + "/")]
+    return max(found, key=len, default=None)
+
+
+class Rooms:
+    def __init__(self, tree):
+        self.tree = tree
+        self.present = set(tree.paths)
+        self.sources = {}
+        for path in tree.ending(".cpp"):
+            self.sources.setdefault((path.split("/")[0], os.path.splitext(os.path.basename(path))[0]), path)
+
+    def of_file(self, path):
+        """The room of a file; None for a public header nobody has placed."""
+        if path in HEADERS:
+            return HEADERS[path]
+        parts = path.split("/")
+        if parts[0] in LIBRARIES and parts[1] == "include":
+            source = self.sources.get((parts[0], os.path.splitext(parts[-1])[0]))
+            if source:
+                return longest_prefix(source, ROOMS)
+        return longest_prefix(path, ROOMS)
+
+    def resolve(self, path, target):
+        """The file of ours that an include of `target` in `path` means; None for what is not ours."""
+        if target.startswith("pimg/"):
+            for library in LIBRARIES:
+                if f"{library}/include/{target}" in self.present:
+                    return f"{library}/include/{target}"
+            return None
+        library = path.split("/")[0]
+        beside = os.path.normpath(os.path.join(os.path.dirname(path), target))
+        for candidate in (beside, f"{library}/src/{target}", f"{library}/{target}"):
+            if candidate in self.present:
+                return candidate
+        # Headers of the plugin, which is a library for the tools and for Python.
+        for folder in ("plugin", "tools", "core/src", "filters/src", "codec/src", "painting/src"):
+            if f"{folder}/{target}" in self.present:
+                return f"{folder}/{target}"
+        return None
+
+
+def may_include(room, other):
+    return room == other or any(other == allowed or other.startswith(allowed + "/") for allowed in ROOMS[room])
+
+
+def foreign_name(target):
+    """The library a foreign header belongs to; None for the standard library's."""
+    first = target.split("/")[0]
+    if target in C or first in PLATFORM or ("." not in first and "/" not in target):
+        return None
+    return first
+
+
+def check_foreign(room, target):
+    allowed = FOREIGN.get(longest_prefix(room, FOREIGN), [])
+    name = foreign_name(target)
+    if allowed is None or name is None or name in allowed:
+        return None
+    return f"{room} includes <{target}>; of foreign libraries it may use {', '.join(allowed) or 'none'}"
+
+
+def check_line(rooms, path, target):
+    """What is wrong with an include of `target` in `path`, or None."""
+    room = rooms.of_file(path)
+    if target in GENERATED:
+        return None if may_include(room, GENERATED[target]) or room.startswith("core") else f"{room} includes {target}"
+    resolved = rooms.resolve(path, target)
+    if resolved is None:
+        if target.startswith("pimg/"):
+            return f"no folder has <{target}>"
+        return check_foreign(room, target)
+    installed = "/include/pimg/" in path and "/detail/" not in path
+    if installed and "/include/pimg/detail/" in resolved:
+        return f"a public header includes <{target}>, which is not installed"
+    other = rooms.of_file(resolved)
+    if other is None:
+        return f"{resolved} belongs to no room: name it in tests/checks/includes.py"
+    if not may_include(room, other):
+        return f"{room} includes {resolved} of {other}; it may include {', '.join(ROOMS[room]) or 'nothing else of ours'}"
+    return None
+
+
+def check(tree):
+    rooms = Rooms(tree)
+    findings = []
+    for path in tree.ending(*CPP):
+        if rooms.of_file(path) is None:
+            if path.split("/")[0] in LIBRARIES:
+                findings.append(Finding(path, 1, "belongs to no room: name it in tests/checks/includes.py"))
+            continue
+        for number, line in enumerate(tree.lines(path), 1):
+            found = INCLUDE.match(line)
+            problem = check_line(rooms, path, found.group(1) or found.group(2)) if found else None
+            if problem:
+                findings.append(Finding(path, number, problem))
+    return findings
