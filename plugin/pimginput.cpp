@@ -9,6 +9,7 @@
 #include <OpenImageIO/strutil.h>
 
 #include <pimg/detail/format.h>
+#include <pimg/threads.h>
 
 namespace pimg {
 namespace io {
@@ -233,13 +234,15 @@ bool PimgInput::read(int miplevel, const Request& request)
     if (!level)
         return fail(m_failure);
     const ImageSpec& spec = m_levels[std::size_t(miplevel)];
-    for (int c = request.c0; c < request.c1; ++c) {
-        const ROI part(request.x0, request.x1, request.y0, request.y1, 0, 1, c, c + 1);
-        if (!level->get_pixels(part, spec.channelformat(c), request.to + spec.pixel_bytes(request.c0, c, true),
-                               request.x_stride, request.y_stride))
-            return fail(level->geterror());
-    }
-    return true;
+    bool ok = true;
+    run_without_foreign_tasks([&] {  // OpenImageIO's image cache may hold a lock of its own while it reads
+        for (int c = request.c0; c < request.c1 && ok; ++c) {
+            const ROI part(request.x0, request.x1, request.y0, request.y1, 0, 1, c, c + 1);
+            ok = level->get_pixels(part, spec.channelformat(c), request.to + spec.pixel_bytes(request.c0, c, true),
+                                   request.x_stride, request.y_stride);
+        }
+    });
+    return ok || fail(level->geterror());
 }
 
 std::unique_ptr<OIIO::ImageInput> make_input()

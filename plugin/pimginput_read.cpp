@@ -3,6 +3,7 @@
 #include "pimginput.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 
 #include <OpenImageIO/imagebufalgo.h>
@@ -170,16 +171,37 @@ std::shared_ptr<const ImageBuf> PimgInput::picture()
     return picture;
 }
 
-/// A level that must be made, from the one above it. All threads but the first wait for it.
+/// A level that must be made, from the one above it. All threads but the first wait for it. The first must not take up
+/// a foreign task of OpenImageIO's pool meanwhile: it could be one that reads this very file, and so waits for this lock
+/// on the thread that holds it.
 std::shared_ptr<const ImageBuf> PimgInput::made(int miplevel)
 {
     if (!is_whole())
         return nullptr;
     std::lock_guard<std::mutex> lock(m_made_mutex);
-    for (int level = 0; level <= miplevel; ++level)
-        if (!m_made[std::size_t(level)] && m_failure.empty())
-            m_made[std::size_t(level)] = make(level);
+    run_without_foreign_tasks([&] {
+        for (int level = 0; level <= miplevel; ++level)
+            if (!m_made[std::size_t(level)] && m_failure.empty())
+                m_made[std::size_t(level)] = make(level);
+    });
     return m_made[std::size_t(miplevel)];
+}
+
+/// `above` at half its size, in strips so that several threads can work at it. False with an error in `level`.
+static bool halve(const ImageBuf& above, const ImageSpec& size, int nthreads, ImageBuf& level)
+{
+    constexpr int kRows = 64;
+    ImageSpec spec(size.width, size.height, size.nchannels, above.spec().format);
+    spec.channelnames = above.spec().channelnames;
+    level.reset(spec);
+    std::atomic<bool> failed { false };
+    run(pool_loop(nthreads), std::size_t((size.height + kRows - 1) / kRows), [&](std::size_t strip) {
+        const int y0 = int(strip) * kRows, y1 = std::min(size.height, y0 + kRows);
+        const ROI rows(0, size.width, y0, y1, 0, 1, 0, size.nchannels);
+        if (!OIIO::ImageBufAlgo::resize(level, above, "box", 0.0f, rows, 1))
+            failed = true;
+    });
+    return !failed;
 }
 
 /// The filtered picture, or half of the level above.
@@ -187,10 +209,7 @@ std::shared_ptr<const ImageBuf> PimgInput::make(int miplevel)
 {
     auto level = std::make_shared<ImageBuf>();
     if (miplevel > 0) {
-        const ImageSpec& spec = m_levels[std::size_t(miplevel)];
-        const ImageBuf& above = *m_made[std::size_t(miplevel - 1)];
-        const ROI size(0, spec.width, 0, spec.height, 0, 1, 0, spec.nchannels);
-        if (OIIO::ImageBufAlgo::resize(*level, above, "box", 0.0f, size, threads()))
+        if (halve(*m_made[std::size_t(miplevel - 1)], m_levels[std::size_t(miplevel)], threads(), *level))
             return level;
         m_failure = level->geterror();
         return nullptr;

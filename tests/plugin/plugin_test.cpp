@@ -13,8 +13,10 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/texture.h>
+#include <OpenImageIO/thread.h>
 
 #include "plugin/plugin_pictures.h"
+#include "watchdog.h"
 
 using namespace pimg_test;
 
@@ -504,6 +506,40 @@ TEST(Plugin, OneReaderServesManyThreads)
             thread.join();
         EXPECT_EQ(wrong, 0) << name;
     }
+}
+
+/// Readers in tasks of OpenImageIO's pool wait for the level that a thread of the program is making with that pool.
+TEST(Plugin, OneReaderServesThreadsAndTasksOfThePool)
+{
+    const pimg::test::Watchdog watchdog("reads of one file in threads and in tasks of the pool");
+    OIIO::thread_pool* const pool = OIIO::default_thread_pool();
+    const int before = pool->size();
+    pool->resize(3);
+    write(slope(ImageSpec(200, 150, 3, TypeDesc::FLOAT)), "pool.pimg");
+    const char* name = "pool.pimg?feature_lowpass=0.1&mip=1";
+    const auto read = [](OIIO::ImageInput& in, int level) {
+        std::vector<std::uint8_t> pixels(in.spec(0, level).image_bytes(true));
+        EXPECT_TRUE(in.read_image(0, level, 0, 3, TypeDesc::UNKNOWN, pixels.data())) << in.geterror();
+        return pixels;
+    };
+    const std::vector<std::uint8_t> expected[2] = { read(*open(name), 0), read(*open(name), 1) };
+    for (int repeat = 0; repeat < 10; ++repeat) {
+        const auto in = open(name);
+        in->threads(4);
+        std::atomic<int> wrong { 0 };
+        std::vector<std::thread> threads;
+        for (int t = 0; t < 8; ++t)
+            threads.emplace_back([&, t] {
+                const int level = t % 2;
+                auto task = pool->push([&, level](int) { wrong += read(*in, level) != expected[level]; });
+                wrong += read(*in, level) != expected[level];
+                task.wait();
+            });
+        for (std::thread& thread : threads)
+            thread.join();
+        EXPECT_EQ(wrong, 0);
+    }
+    pool->resize(before);
 }
 
 TEST(Plugin, WorksInCacheAndTextureSystem)

@@ -1,16 +1,94 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Why these loops do not use OpenImageIO's own parallel_for: a thread that waits there for its loop takes up any task
+// from the pool's queue, also one that has nothing to do with the loop. Callers of pool_loop() may hold a lock, for
+// example that of a progressive image's caches; a foreign task that asks for the same lock on the same thread would
+// wait for ever. So here the calling thread does only its own work, and at the end waits only for those pool threads
+// that have already begun to help: these are busy with bodies of this loop and nothing else.
 #include <pimg/threads.h>
 
 #include <algorithm>
 #include <atomic>
+#include <condition_variable>
 #include <cstdint>
 #include <exception>
+#include <memory>
 #include <mutex>
+#include <thread>
 
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/parallel.h>
+#include <OpenImageIO/thread.h>
 
 namespace pimg {
+
+namespace {
+
+/// Helpers that come too late stay in the pool's queue until one of its threads finds the time to throw them away. All
+/// its threads may be busy for long; so that the queue does not grow without end meanwhile, there is this limit. It is
+/// far above what loops that follow each other leave behind (a few per loop), and costs about 50 kB at most.
+constexpr std::size_t kLongestQueue = 256;
+
+/// One loop, shared by the calling thread and the pool threads that help it. A helper may be started by the pool long
+/// after the loop has ended; it then finds the loop closed and leaves. So the loop outlives its caller, but `body`,
+/// which belongs to the caller, is used only by helpers that joined before close() returned.
+class SharedLoop {
+public:
+    SharedLoop(std::size_t n, const std::function<void(std::size_t)>& body) : m_n(n), m_body(&body) { }
+
+    /// Takes the next item until none is left.
+    void work()
+    {
+        try {
+            for (std::size_t i; (i = m_next.fetch_add(1, std::memory_order_relaxed)) < m_n;)
+                (*m_body)(i);
+        } catch (...) {
+            std::lock_guard<std::mutex> lock(m_mutex);
+            m_thrown = std::current_exception();
+            m_next = m_n;
+        }
+    }
+
+    /// What a pool thread does.
+    void help()
+    {
+        {
+            std::lock_guard<std::mutex> lock(m_mutex);
+            if (m_closed)
+                return;
+            ++m_helping;
+        }
+        work();
+        std::lock_guard<std::mutex> lock(m_mutex);
+        if (--m_helping == 0)
+            m_idle.notify_all();
+    }
+
+    /// Waits for the helpers that have joined, lets no other join, and throws what a body has thrown.
+    void close()
+    {
+        // Helpers usually end within microseconds of each other, which is less than going to sleep costs.
+        constexpr int kYields = 256;
+        for (int i = 0; i < kYields && m_helping.load(std::memory_order_relaxed) > 0; ++i)
+            std::this_thread::yield();
+        std::unique_lock<std::mutex> lock(m_mutex);
+        m_closed = true;
+        m_idle.wait(lock, [&] { return m_helping == 0; });
+        if (m_thrown)
+            std::rethrow_exception(m_thrown);
+    }
+
+private:
+    const std::size_t m_n;
+    const std::function<void(std::size_t)>* m_body;
+    std::atomic<std::size_t> m_next { 0 };
+    std::atomic<int> m_helping { 0 };  ///< changed under the mutex
+    std::mutex m_mutex;
+    std::condition_variable m_idle;
+    bool m_closed = false;
+    std::exception_ptr m_thrown;
+};
+
+}  // namespace
 
 ParallelFor pool_loop(int nthreads)
 {
@@ -18,27 +96,34 @@ ParallelFor pool_loop(int nthreads)
     if (threads <= 1)
         return {};
     return [threads](std::size_t n, const std::function<void(std::size_t)>& body) {
-        // Each thread takes the next item until none is left: OpenImageIO's own chunks would keep
-        // to the number of threads only when it chooses their size.
-        std::atomic<std::size_t> next { 0 };
-        std::mutex mutex;
-        std::exception_ptr thrown;  // the pool would swallow it
-        const auto worker = [&](std::int64_t, std::int64_t) {
-            try {
-                for (std::size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < n;)
-                    body(i);
-            } catch (...) {
-                std::lock_guard<std::mutex> lock(mutex);
-                thrown = std::current_exception();
-                next = n;
-            }
-        };
-        const std::int64_t workers = std::int64_t(std::min(std::size_t(threads), n));
-        OIIO::parallel_for_chunked(std::int64_t(0), workers, 1, worker,
-                                   OIIO::paropt(threads, OIIO::paropt::SplitDir::Y, 1));
-        if (thrown)
-            std::rethrow_exception(thrown);
+        OIIO::thread_pool* const pool = OIIO::default_thread_pool();
+        const auto loop = std::make_shared<SharedLoop>(n, body);
+        // Within a task of the pool one thread does the loop, as in OpenImageIO.
+        const std::size_t wanted = pool->is_worker() ? 1 : std::min(std::size_t(threads), n);
+        for (std::size_t t = 1; t < wanted && pool->jobs_in_queue() < kLongestQueue; ++t)
+            pool->push([loop](int) { loop->help(); });
+        loop->work();
+        loop->close();
     };
+}
+
+void run_without_foreign_tasks(const std::function<void()>& body)
+{
+    // OpenImageIO's loops stay on their thread when they are called from within one of its loops, even one of a single
+    // item on the calling thread. An exception must not pass through it, or its count of nested loops would stay wrong.
+    std::exception_ptr thrown;
+    OIIO::parallel_for_chunked(
+        std::int64_t(0), std::int64_t(1), 1,
+        [&](std::int64_t, std::int64_t) {
+            try {
+                body();
+            } catch (...) {
+                thrown = std::current_exception();
+            }
+        },
+        OIIO::paropt(1, OIIO::paropt::SplitDir::Y, 1));
+    if (thrown)
+        std::rethrow_exception(thrown);
 }
 
 }  // namespace pimg
