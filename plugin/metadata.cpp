@@ -5,6 +5,7 @@
 // value little-endian. One string is its bytes; each of an array of strings ends with a 0.
 #include <algorithm>
 #include <cstring>
+#include <unordered_map>
 
 #include <OpenImageIO/fmath.h>
 #include <OpenImageIO/strutil.h>
@@ -23,6 +24,17 @@ using OIIO::ParamValue;
 using OIIO::TypeDesc;
 using OIIO::ustring;
 
+/// What says how a file is to be stored, or what OpenImageIO's caches believe of its pixels.
+constexpr const char* kHints[] = { "compression",        "CompressionQuality", "textureformat", "planarconfig",
+                                   "oiio:subimages",     "oiio:dither",        "oiio:ioproxy",  "oiio:SHA-1",
+                                   "oiio:ConstantColor", "oiio:AverageColor" };
+
+/// Names under which formats keep what concerns their own files: tiff:RowsPerStrip of a hostile file would choose the
+/// size of OpenImageIO's buffers.
+constexpr const char* kHintPrefixes[] = { "tiff:", "png:",    "jpeg:",    "jpeg2000:", "webp:", "heif:",
+                                          "avif:", "jpegxl:", "openexr:", "bmp:",      "gif:",  "ico:",
+                                          "sgi:",  "dds:",    "ptex:",    "maketx:" };
+
 /// Attributes that say how this very file is to be written or was read, or that hold pointers.
 bool is_hint(const std::string& name, TypeDesc type)
 {
@@ -30,11 +42,31 @@ bool is_hint(const std::string& name, TypeDesc type)
         return true;
     if (OIIO::Strutil::istarts_with(name, "pimg:") || OIIO::Strutil::istarts_with(name, "thumbnail_"))
         return true;
-    for (const char* hint :
-         { "compression", "CompressionQuality", "textureformat", "oiio:subimages", "oiio:dither", "oiio:ioproxy" })
+    for (const char* hint : kHints)
         if (OIIO::Strutil::iequals(name, hint))
             return true;
+    for (const char* prefix : kHintPrefixes)
+        if (OIIO::Strutil::istarts_with(name, prefix))
+            return true;
     return false;
+}
+
+/// Whether a value that OpenImageIO's writers and readers act upon is one they can act upon.
+bool is_sound(const std::string& name, TypeDesc type, const void* value)
+{
+    const auto within = [&](int low, int high) {
+        int number = 0;
+        if (type == TypeDesc::INT)
+            std::memcpy(&number, value, sizeof number);
+        return type == TypeDesc::INT && number >= low && number <= high;
+    };
+    if (OIIO::Strutil::iequals(name, "Orientation"))
+        return within(1, 8);
+    if (OIIO::Strutil::iequals(name, "oiio:BitsPerSample"))
+        return within(1, 32);
+    if (OIIO::Strutil::iequals(name, "oiio:UnassociatedAlpha"))
+        return within(0, 1);
+    return true;
 }
 
 /// The format's own attributes: what is not to be seen from the names of the channels.
@@ -105,33 +137,55 @@ Attribute to_attribute(const ParamValue& param)
     return attribute;
 }
 
-void add_strings(ImageSpec& spec, const Attribute& attribute, TypeDesc type)
+/// The attributes of a header, by name. ImageSpec::attribute() looks through all of them each time, which a file of many
+/// would make a matter of minutes.
+class AttributeList {
+public:
+    explicit AttributeList(ImageSpec& spec) : m_list(spec.extra_attribs) { }
+    /// Of several of one name, whatever its case, the last counts.
+    void set(const std::string& name, TypeDesc type, const void* value)
+    {
+        const auto [found, is_new] = m_places.emplace(OIIO::Strutil::lower(name), m_list.size());
+        if (is_new)
+            m_list.emplace_back(name, type, 1, value);
+        else
+            m_list[int(found->second)] = ParamValue(name, type, 1, value);
+    }
+
+private:
+    OIIO::ParamValueList& m_list;
+    std::unordered_map<std::string, std::size_t> m_places;
+};
+
+void add_strings(AttributeList& list, const Attribute& attribute, TypeDesc type)
 {
     const std::string text(attribute.value.begin(), attribute.value.end());
     if (type.arraylen == 0) {
-        spec.attribute(attribute.name, text);
+        const ustring whole(text);
+        list.set(attribute.name, TypeDesc::STRING, &whole);
         return;
     }
     std::vector<ustring> strings;
     for (std::size_t begin = 0, end; (end = text.find('\0', begin)) != std::string::npos; begin = end + 1)
         strings.emplace_back(text, begin, end - begin);
     if (strings.size() == type.numelements())
-        spec.attribute(attribute.name, type, strings.data());
+        list.set(attribute.name, type, strings.data());
 }
 
 /// Attributes of types unknown here are skipped: a later version of OpenImageIO may know them.
-void add_attribute(ImageSpec& spec, const Attribute& attribute)
+void add_attribute(AttributeList& list, const Attribute& attribute)
 {
     const TypeDesc type = parse_type(attribute.type);
     if (attribute.name.empty() || is_hint(attribute.name, type) || type.arraylen < 0)
         return;
     if (type.basetype == TypeDesc::STRING) {
         if (type.aggregate == TypeDesc::SCALAR)
-            add_strings(spec, attribute, type);
+            add_strings(list, attribute, type);
     } else if (type.size() == attribute.value.size()) {
         std::vector<std::uint8_t> value = attribute.value;
         swap_on_big_endian(value, type.basesize());
-        spec.attribute(attribute.name, type, value.data());
+        if (is_sound(attribute.name, type, value.data()))
+            list.set(attribute.name, type, value.data());
     }
 }
 
@@ -262,13 +316,14 @@ ImageSpec to_spec(const PictureDesc& desc)
         spec.channelformats.clear();
     spec.alpha_channel = alpha_by_name(spec);
     spec.z_channel = depth_by_name(spec);
+    AttributeList list(spec);
     for (const Attribute& attribute : desc.attributes) {
         if (attribute.name == kAlphaChannel)
             spec.alpha_channel = channel_number(attribute, channels);
         else if (attribute.name == kDepthChannel)
             spec.z_channel = channel_number(attribute, channels);
         else
-            add_attribute(spec, attribute);
+            add_attribute(list, attribute);
     }
     return spec;
 }

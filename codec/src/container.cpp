@@ -159,6 +159,17 @@ Status read_channels(ByteReader in, const DecodeLimits& limits, const FileHead& 
     return status;
 }
 
+namespace {
+
+/// What so many bytes of packed attributes may unpack to: text packs to a twentieth at best, and a few megabytes of
+/// nothing are harmless. Writers store what packs better as it is.
+std::uint64_t most_unpacked(std::uint64_t packed)
+{
+    return (std::uint64_t(4) << 20) + 64 * packed;
+}
+
+}  // namespace
+
 Bytes write_attributes(const PictureDesc& desc)
 {
     Bytes plain, packed, out;
@@ -171,7 +182,8 @@ Bytes write_attributes(const PictureDesc& desc)
         put_varint(plain, a.value.size());
         put_bytes(plain, a.value.data(), a.value.size());
     }
-    const bool smaller = zstd_pack(plain.data(), plain.size(), 9, packed) && packed.size() < plain.size();
+    const bool smaller = zstd_pack(plain.data(), plain.size(), 9, packed) && packed.size() < plain.size()
+        && plain.size() <= most_unpacked(packed.size());
     put_u8(out, smaller ? 1 : 0);
     put_varint(out, plain.size());
     const Bytes& body = smaller ? packed : plain;
@@ -192,9 +204,9 @@ Status read_attributes(ByteReader in, const DecodeLimits& limits, PictureDesc& d
         return bad();
     Bytes plain;
     if (method == 1) {
-        // zstd reaches at most about 1 : 2^15 on anything; more is a bomb.
-        if (size / 32768 > in.left())
-            return bad();
+        if (size > most_unpacked(in.left()))
+            return Status::failure("pimg: the attributes unpack to " + std::to_string(size) + " bytes, more than "
+                                   + std::to_string(in.left()) + " can be believed to hold");
         plain.resize(std::size_t(size));
         if (!zstd_unpack(in.here(), in.left(), plain.data(), plain.size()))
             return bad();

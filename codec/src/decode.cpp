@@ -126,6 +126,9 @@ Status Decoder::read(const std::vector<Plane>& samples, ReadInfo* info, const Pa
         if (samples.size() != f.desc.channels.size())
             return Status::failure(kPlaneCount);
         Status status = f.index();
+        for (const Chunk& chunk : f.collapses)
+            if (status)
+                status = f.verify(chunk);
         if (!status)
             return status;
         std::mutex mutex;
@@ -191,19 +194,27 @@ Status Decoder::read_preview(std::uint32_t width, std::uint32_t height, const st
         if (!status)
             return status;
         const std::vector<Triangle> triangles = ordered_triangles(layer.mesh);
+        status = f.check_effort(layer.mesh, triangles, width, height);
+        if (!status)
+            return status;
         std::vector<Index> numbers(triangles.size());
         for (Index i = 0; i < Index(numbers.size()); ++i)
             numbers[i] = i;
         const SamplePoints points = SamplePoints::spread(f.desc.data.width, f.desc.data.height, width, height);
         for (std::size_t first = 0; first < f.desc.channels.size();) {
             std::vector<std::vector<std::int32_t>> group(f.group_size(first));
-            for (std::size_t k = 0; k < group.size(); ++k) {
+            const std::size_t next = first + group.size();
+            const bool wanted =
+                std::any_of(samples.begin() + std::ptrdiff_t(first), samples.begin() + std::ptrdiff_t(next),
+                            [](const Plane& plane) { return plane.data != nullptr; });
+            for (std::size_t k = 0; wanted && k < group.size(); ++k) {
                 group[k].resize(std::size_t(width) * height);
-                fill(layer.mesh, triangles, numbers, layer.values[first + k],
-                     mesh_shift(f.desc.channels[first + k].type), points, group[k].data());
+                fill(layer.mesh, triangles, { numbers.data(), numbers.data() + numbers.size() },
+                     layer.values[first + k], mesh_shift(f.desc.channels[first + k].type), points, group[k].data());
             }
-            f.finish(group, first, width, height, false, samples);
-            first += group.size();
+            if (wanted)
+                f.finish(group, first, width, height, false, samples);
+            first = next;
         }
         return {};
     });

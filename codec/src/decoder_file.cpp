@@ -50,6 +50,28 @@ Status Decoder::File::payload(const Chunk& chunk, Bytes& bytes) const
     return {};
 }
 
+/// Checks the crc of a chunk whose payload is not wanted.
+Status Decoder::File::verify(const Chunk& chunk) const
+{
+    if (!limits.check_crc)
+        return {};
+    constexpr std::uint64_t kAtOnce = 1 << 16;
+    const std::uint64_t end = chunk.end() - kChunkTail;
+    Bytes part(std::size_t(std::min(kAtOnce, end - chunk.offset)));
+    std::uint32_t crc = 0;
+    for (std::uint64_t at = chunk.offset; at < end;) {
+        const std::size_t count = std::size_t(std::min<std::uint64_t>(part.size(), end - at));
+        if (!source->read(at, count, part.data()))
+            return Status::failure("pimg: the file could not be read");
+        crc = crc32(crc, part.data(), count);
+        at += count;
+    }
+    std::uint8_t stored[kChunkTail];
+    if (!source->read(end, sizeof stored, stored))
+        return Status::failure("pimg: the file could not be read");
+    return crc == load_u32(stored) ? Status() : damaged(chunk);
+}
+
 Status Decoder::File::open()
 {
     std::uint8_t signature[sizeof kSignature];
@@ -89,6 +111,8 @@ Status Decoder::File::open()
             attributes |= is_meta;
         } else if (is_known(chunk.head) || chunk.head.flags & kCritical)
             break;
+        else if (chunk.head.length <= limits.attribute_bytes && !(status = verify(chunk)).ok())
+            return status;  // it may be the attributes by another name
         offset = chunk.end();
     }
     if (!channels)
@@ -117,6 +141,12 @@ Status Decoder::File::make_index() const
             return status;
         if (offset >= body)
             status = add_to_index(chunk, next_tile);
+        // Tiles and the collapse sequence are checked when they are read, the header has been; what nobody asks for
+        // may be damaged too, and one whose name is damaged is one that nobody asks for.
+        const bool read_elsewhere =
+            offset < body ? is_known(chunk.head) : chunk.head.is("RAST") || chunk.head.is("COLL");
+        if (status && !read_elsewhere)
+            status = verify(chunk);
         if (!status)
             return status;
         all.push_back(chunk);
@@ -193,6 +223,16 @@ Status Decoder::File::read_layer(double share, MeshLayer& layer_out) const
     return status;
 }
 
+/// Whether a mesh can be shown on width x height pixels by work in proportion to them and to its triangles.
+Status Decoder::File::check_effort(const Mesh& mesh, const std::vector<Triangle>& triangles, std::uint32_t width,
+                                   std::uint32_t height) const
+{
+    const std::uint64_t most = most_crossed_rows(std::uint64_t(width) * height, triangles.size());
+    return crossed_rows(mesh, triangles, height, desc.data.height) <= most
+        ? Status()
+        : Status::failure("pimg: the triangles of the mesh layer are too thin to be of a picture");
+}
+
 Status Decoder::File::shared_layer(std::shared_ptr<const LayerState>& state) const
 {
     const std::lock_guard<std::mutex> lock(mutex);
@@ -201,8 +241,10 @@ Status Decoder::File::shared_layer(std::shared_ptr<const LayerState>& state) con
         layer_status = read_layer(1.0, made->layer);
         if (layer_status) {
             made->grid = TriangleGrid(made->layer.mesh, head.tile);
-            layer = made;
+            layer_status = check_effort(made->layer.mesh, made->grid.triangles(), desc.data.width, desc.data.height);
         }
+        if (layer_status)
+            layer = made;
     }
     state = layer;
     return layer_status;

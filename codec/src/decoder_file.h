@@ -69,11 +69,14 @@ struct Decoder::File {
 
     bool chunk_at(std::uint64_t offset, Chunk& chunk, Status& status) const;
     Status payload(const Chunk& chunk, Bytes& bytes) const;
+    Status verify(const Chunk& chunk) const;
     Status open();
     Status index() const;
     Status make_index() const;
     Status add_to_index(const Chunk& chunk, std::uint64_t& next_tile) const;
     Status read_layer(double share, MeshLayer& layer) const;
+    Status check_effort(const Mesh& mesh, const std::vector<Triangle>& triangles, std::uint32_t width,
+                        std::uint32_t height) const;
     Status shared_layer(std::shared_ptr<const LayerState>& state) const;
     Status tile(std::uint32_t column, std::uint32_t row, const std::vector<Plane>& planes) const;
     Status show(const SamplePoints& points, std::uint32_t column, std::uint32_t row, std::size_t c,

@@ -167,7 +167,16 @@ Status Encoder::make_mesh_layer(MeshLayerChunks& chunks)
             all.push_back(std::move(b));
         }
     }
-    return write_mesh_layer(*m_hierarchy, all, vertices, chunks);
+    // A reader refuses triangles as thin as no picture makes them; the coarser mesh of fewer vertices has none.
+    for (double most = vertices;; most /= 4.0) {
+        chunks = {};
+        const Status status = write_mesh_layer(*m_hierarchy, all, most, chunks);
+        const Mesh& mesh = chunks.layer.mesh;
+        if (!status || most < 4.0
+            || crossed_rows(mesh, mesh.triangles(), m_desc.data.height, m_desc.data.height)
+                <= most_crossed_rows(m_desc.pixels(), mesh.triangle_count()))
+            return status;
+    }
 }
 
 /// The best predictor by estimate. One that needs the mesh layer must earn what showing it costs the reader.

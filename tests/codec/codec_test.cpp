@@ -339,6 +339,50 @@ TEST(Codec, OpeningReadsOnlyTheHeader)
     EXPECT_LT(source->bytes, 512u);
 }
 
+/// Whether a file is read to its end without a complaint.
+bool is_read(const std::vector<std::uint8_t>& file)
+{
+    Decoder decoder;
+    if (!decoder.open(memory_source(file.data(), file.size())))
+        return false;
+    std::vector<std::uint8_t> pixels(decoder.desc().pixel_bytes() * decoder.desc().pixels());
+    std::vector<ChunkInfo> chunks;
+    return decoder.read(interleaved(decoder.desc(), (void*)pixels.data())) && decoder.chunks(chunks)
+        && std::string(chunks.back().type) == "DONE";
+}
+
+TEST(Codec, EveryFlippedBitIsNoticed)
+{
+    Picture p = make_picture(20, 9, { SampleType::uint8 });
+    p.desc.attributes = { { "note", "string", { 'a', 'b' } } };
+    for (const Profile profile : { Profile::compact, Profile::full }) {
+        EncodeOptions options;
+        options.profile = profile;
+        options.vertices = 0.2f;
+        std::vector<std::uint8_t> file;
+        ASSERT_TRUE(encode(p.desc, p.planes(), options, file));
+        ASSERT_TRUE(is_read(file));
+        for (std::size_t bit = 0; bit < file.size() * 8; ++bit) {
+            std::vector<std::uint8_t> flipped = file;
+            flipped[bit / 8] = std::uint8_t(flipped[bit / 8] ^ (1u << bit % 8));
+            ASSERT_FALSE(is_read(flipped)) << "bit " << bit;
+        }
+    }
+}
+
+TEST(Codec, AttributesThatPackTooWellAreStoredAsTheyAre)
+{
+    Picture p = make_picture(8, 8, { SampleType::uint8 });
+    for (const std::size_t bytes : { std::size_t(1) << 20, std::size_t(9) << 20 }) {
+        p.desc.attributes = { { "zeros", "uint8[]", std::vector<std::uint8_t>(bytes) } };
+        const auto file = encoded(p);
+        EXPECT_EQ(file.size() > bytes, bytes > std::size_t(4) << 20);
+        Decoder decoder;
+        ASSERT_TRUE(decoder.open(memory_source(file.data(), file.size())));
+        EXPECT_EQ(decoder.desc().attributes[0].value.size(), bytes);
+    }
+}
+
 TEST(Codec, RefusesWhatIsOverTheLimits)
 {
     const Picture p = make_picture(40, 30, { SampleType::uint8, SampleType::half });

@@ -395,6 +395,8 @@ class Layer:
                 b = ring[(i + 1) % len(ring)]
                 if GHOST not in (a, b) and v < a and v < b:
                     triangles.append((v, a, b))
+        crossed = sum((max(self.points[k][1] for k in t) - min(self.points[k][1] for k in t)) // 64 + 1 for t in triangles)
+        need(crossed <= 16 * width * height + 8 * len(triangles) + 65536, 'triangles too thin')
         out = [[0] * width for _ in range(height)]
         for t in sorted(triangles):
             p = [self.points[k] for k in t]
@@ -561,6 +563,7 @@ def read_attributes(data):
     r = Reader(data)
     method, size = r.get('B'), r.varint()
     need(method <= 1, 'attributes')
+    need(method == 0 or size <= 2**22 + 64 * (len(data) - r.at), 'attributes unpack to too much')
     body = unzstd(r.rest(), size) if method else r.rest()
     need(len(body) == size, 'attributes')
     r = Reader(body)

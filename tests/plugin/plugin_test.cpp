@@ -151,6 +151,20 @@ TEST(Plugin, KeepsMetadataOfEveryType)
     EXPECT_EQ(in->spec().get_int_attribute("thumbnail_width"), 4);
 }
 
+TEST(Plugin, HandsOnNoHintsOfOtherFormats)
+{
+    ImageSpec spec(4, 4, 3, TypeDesc::UINT8);
+    for (const char* name : { "tiff:RowsPerStrip", "png:compressionLevel", "openexr:lineOrder", "jpeg:progressive",
+                              "planarconfig", "oiio:SHA-1", "Orientation", "oiio:BitsPerSample" })
+        spec.attribute(name, 1000000000);
+    spec.attribute("Exif:ISOSpeedRatings", 100);
+    write(noise(spec), "hints.pimg");
+    const auto in = open("hints.pimg");
+    EXPECT_EQ(in->spec().get_int_attribute("Exif:ISOSpeedRatings"), 100);
+    for (const OIIO::ParamValue& attribute : in->spec().extra_attribs)
+        EXPECT_NE(attribute.get_int(), 1000000000) << attribute.name();
+}
+
 TEST(Plugin, HasAThumbnailOfThePicture)
 {
     const Picture picture = slope(ImageSpec(600, 300, 4, TypeDesc::UINT8));

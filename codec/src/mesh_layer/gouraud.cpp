@@ -12,23 +12,110 @@ std::vector<Triangle> ordered_triangles(const Mesh& mesh)
     return triangles;
 }
 
-TriangleGrid::TriangleGrid(const Mesh& mesh, std::uint32_t cell) : m_triangles(ordered_triangles(mesh))
-{
-    const std::int32_t side = std::int32_t(cell) * kSubpixels;
-    const std::uint32_t rows = std::uint32_t(mesh.extent().y / side) + 1;
-    m_columns = std::uint32_t(mesh.extent().x / side) + 1;
-    m_cells.resize(std::size_t(rows) * m_columns);
-    for (Index t = 0; t < Index(m_triangles.size()); ++t) {
-        Point low = mesh.extent(), high {};
-        for (Index v : m_triangles[t]) {
-            const Point p = mesh.point(v);
-            low = { std::min(low.x, p.x), std::min(low.y, p.y) };
-            high = { std::max(high.x, p.x), std::max(high.y, p.y) };
+namespace {
+
+struct Corners {
+    Point p[3];
+    Corners(const Mesh& mesh, const Triangle& t) : p { mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2]) } { }
+    std::int32_t top() const { return std::min({ p[0].y, p[1].y, p[2].y }); }
+    std::int32_t bottom() const { return std::max({ p[0].y, p[1].y, p[2].y }); }
+};
+
+/// Columns of lattice units, both ends included, that a triangle reaches between two heights; up to one too many on
+/// either side.
+struct Reach {
+    std::int64_t left = INT64_MAX, right = INT64_MIN;
+
+    Reach(const Corners& t, std::int64_t low, std::int64_t high)
+    {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Point p = t.p[k], q = t.p[(k + 1) % 3];
+            const Point a = p.y <= q.y ? p : q, b = p.y <= q.y ? q : p;
+            const std::int64_t y0 = std::max<std::int64_t>(a.y, low), y1 = std::min<std::int64_t>(b.y, high);
+            if (y0 > y1)
+                continue;
+            const std::int64_t rise = b.y - a.y, run = b.x - a.x;
+            add(rise == 0 ? a.x : a.x + run * (y0 - a.y) / rise);
+            add(rise == 0 ? b.x : a.x + run * (y1 - a.y) / rise);
         }
-        for (std::uint32_t row = std::uint32_t(low.y / side); row <= std::uint32_t(high.y / side); ++row)
-            for (std::uint32_t column = std::uint32_t(low.x / side); column <= std::uint32_t(high.x / side); ++column)
-                m_cells[std::size_t(row) * m_columns + column].push_back(t);
+        left = std::max<std::int64_t>(left, 0);
     }
+
+private:
+    void add(std::int64_t x)
+    {
+        left = std::min(left, x - 1);
+        right = std::max(right, x + 1);
+    }
+};
+
+/// Calls body(number) for the cells, of `side` lattice units, that a triangle touches, while it returns true.
+template<class Body>
+bool for_each_cell(const Corners& t, Point extent, std::int64_t side, std::uint32_t columns, Body&& body)
+{
+    const std::int64_t first = t.top() / side, last = t.bottom() / side;
+    for (std::int64_t row = first; row <= last; ++row) {
+        const Reach reach(t, row * side, row * side + side);
+        const std::int64_t right = std::min<std::int64_t>(reach.right, extent.x) / side;
+        for (std::int64_t column = reach.left / side; column <= right; ++column)
+            if (!body(std::size_t(row) * columns + std::size_t(column)))
+                return false;
+    }
+    return true;
+}
+
+/// Lists of a grid may have this many entries per triangle before its cells grow, and this many cells and entries at
+/// least. Meshes made from pictures have less than two per triangle.
+constexpr std::size_t kEntriesPerTriangle = 16, kFewEntries = 4096;
+
+}  // namespace
+
+/// How many entries each cell has, in m_starts[cell + 1]; false when all together are too many.
+bool TriangleGrid::count(const Mesh& mesh, std::int64_t side, std::size_t cells)
+{
+    const std::size_t most = kFewEntries + kEntriesPerTriangle * m_triangles.size();
+    if (cells > kFewEntries + m_triangles.size())
+        return false;
+    m_starts.assign(cells + 1, 0);
+    std::size_t entries = 0;
+    for (const Triangle& t : m_triangles)
+        if (!for_each_cell(Corners(mesh, t), mesh.extent(), side, m_columns, [&](std::size_t cell) {
+                ++m_starts[cell + 1];
+                return ++entries <= most;
+            }))
+            return false;
+    return true;
+}
+
+TriangleGrid::TriangleGrid(const Mesh& mesh, std::uint32_t tile) : m_triangles(ordered_triangles(mesh))
+{
+    std::int64_t side = std::int64_t(tile) * kSubpixels;
+    for (;; side *= 2, ++m_shift) {
+        m_columns = std::uint32_t(mesh.extent().x / side) + 1;
+        if (count(mesh, side, std::size_t(mesh.extent().y / side + 1) * m_columns))
+            break;
+    }
+    for (std::size_t cell = 1; cell < m_starts.size(); ++cell)
+        m_starts[cell] += m_starts[cell - 1];
+    m_numbers.resize(m_starts.back());
+    std::vector<std::size_t> next(m_starts.begin(), m_starts.end() - 1);
+    for (Index i = 0; i < Index(m_triangles.size()); ++i)
+        for_each_cell(Corners(mesh, m_triangles[i]), mesh.extent(), side, m_columns, [&](std::size_t cell) {
+            m_numbers[next[cell]++] = i;
+            return true;
+        });
+}
+
+std::uint64_t crossed_rows(const Mesh& mesh, const std::vector<Triangle>& triangles, std::uint32_t rows,
+                           std::uint32_t of_rows)
+{
+    std::uint64_t crossed = 0;
+    for (const Triangle& t : triangles) {
+        const Corners corners(mesh, t);
+        const std::uint64_t height = std::uint64_t(corners.bottom() - corners.top()) / kSubpixels;
+        crossed += height * rows / of_rows + 1;
+    }
+    return crossed;
 }
 
 SamplePoints SamplePoints::rectangle(std::uint32_t x, std::uint32_t y, std::uint32_t width, std::uint32_t height)
@@ -104,7 +191,7 @@ struct Plane10 {
 
 }  // namespace
 
-void fill(const Mesh& mesh, const std::vector<Triangle>& triangles, const std::vector<Index>& numbers,
+void fill(const Mesh& mesh, const std::vector<Triangle>& triangles, IndexRun numbers,
           const std::vector<std::int32_t>& values, int shift, const SamplePoints& points, std::int32_t* samples)
 {
     const std::vector<std::int32_t>&xs = points.xs, &ys = points.ys;

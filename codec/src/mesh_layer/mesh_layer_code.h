@@ -44,12 +44,15 @@ bool code_geometry(Io& io, MeshModels& models, const MeshLayerHead& head, const 
 {
     const std::uint32_t shift = head.lattice_shift;
     const Point s = mesh.point(split.s);
-    split.vr = int(io.number(models.vr[ring.degree], std::uint32_t(split.vr)));
+    // Whatever a file says stays unsigned until it is known to be a place of the ring.
+    const std::uint32_t degree = std::uint32_t(ring.degree);
     const int around = (split.vl - split.vr + ring.degree) % ring.degree;
-    const std::uint32_t steps = io.number(models.vl[ring.degree], std::uint32_t(around));
-    if (split.vr >= ring.degree || steps < 1 || steps >= std::uint32_t(ring.degree))
+    const std::uint32_t right = io.number(models.vr[degree], std::uint32_t(split.vr));
+    const std::uint32_t steps = io.number(models.vl[degree], std::uint32_t(around));
+    if (right >= degree || steps < 1 || steps >= degree)
         return false;
-    split.vl = (split.vr + int(steps)) % ring.degree;
+    split.vr = int(right);
+    split.vl = int((right + steps) % degree);
 
     // The edge t -> u, then where its middle is from s.
     const int border = ring.has_ghost();

@@ -126,6 +126,10 @@ private:
     std::size_t m_count = 0;
 };
 
+/// Words of vertices that batches may walk through, per pixel and for any picture (docs/format.md, section 7). A
+/// written sequence takes less than one per pixel.
+constexpr std::uint64_t kWalksPerPixel = 16, kFewWalks = 1 << 20;
+
 class SequenceReader {
 public:
     SequenceReader(int width, int height, const std::vector<const float*>& channels)
@@ -160,7 +164,8 @@ private:
     SymbolReader m_gap, m_choice, m_x, m_y;
     Star m_star;
     VolumeShares m_shares {};
-    Index m_vertices = 0;  ///< of the mesh the sequence starts from
+    Index m_vertices = 0;        ///< of the mesh the sequence starts from
+    std::uint64_t m_walked = 0;  ///< words of m_alive, in all batches
     std::uint32_t m_shift = 0;
     float m_cost = 0.0f;
 };
@@ -280,6 +285,10 @@ bool SequenceReader::read_batch(ByteReader& heads)
     m_cost = cost;
     if (2 * m_alive.count() < m_mesh.size())
         keep_alive();
+    // Every batch walks through all vertices: a file of batches with one collapse each would never end.
+    m_walked += m_mesh.size() / 64 + 1;
+    if (m_walked > kWalksPerPixel * m_h.mesh_pixels() + kFewWalks)
+        return false;
     const std::uint32_t density = class_of(std::uint32_t(m_alive.count() / count));
     m_batch.clear();
     AliveSet::Walk walk(m_alive);

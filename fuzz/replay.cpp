@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs a fuzz target over files, without libFuzzer, and holds it to a budget of time and memory in proportion to each
+// file. Usage: fuzz_<target>_replay FILE|FOLDER...
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <sys/resource.h>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr double kSlow = 20.0;  // instrumented code is slower and keeps freed memory
+#else
+constexpr double kSlow = 1.0;
+#endif
+
+struct Spent {
+    double seconds;    ///< of the processor: the machine may be busy
+    double megabytes;  ///< the most there ever were
+};
+
+Spent spent()
+{
+    rusage usage {};
+    getrusage(RUSAGE_SELF, &usage);
+    const auto seconds = [](const timeval& t) {
+        return double(t.tv_sec) + 1e-6 * double(t.tv_usec);
+    };
+    return { seconds(usage.ru_utime) + seconds(usage.ru_stime), double(usage.ru_maxrss) / 1024.0 };
+}
+
+bool replay(const std::filesystem::path& path)
+{
+    std::ifstream in(path, std::ios::binary);
+    const std::vector<char> bytes { std::istreambuf_iterator<char>(in), {} };
+    const Spent before = spent();
+    LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+    const Spent after = spent();
+    // A kilobyte takes at most 64 MB and 1 s; more bytes may take 1000 times their size and 0.01 s per kilobyte.
+    const double kilobytes = double(bytes.size()) / 1024.0;
+    const double seconds = after.seconds - before.seconds, megabytes = after.megabytes - before.megabytes;
+    const bool fine = seconds <= kSlow * (1.0 + 0.01 * kilobytes) && megabytes <= kSlow * (64.0 + kilobytes);
+    std::printf("%-40s %8zu bytes %7.3f s %+8.1f MB%s\n", path.filename().c_str(), bytes.size(), seconds, megabytes,
+                fine ? "" : "  TOO MUCH");
+    return fine;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    std::vector<std::filesystem::path> files;
+    for (int i = 1; i < argc; ++i)
+        if (std::filesystem::is_directory(argv[i]))
+            for (const auto& entry : std::filesystem::recursive_directory_iterator(argv[i])) {
+                if (entry.is_regular_file())
+                    files.push_back(entry.path());
+            }
+        else
+            files.emplace_back(argv[i]);
+    std::sort(files.begin(), files.end());
+    bool fine = !files.empty();
+    for (const auto& file : files)
+        fine &= replay(file);
+    if (files.empty())
+        std::fprintf(stderr, "no files to replay\n");
+    return fine ? 0 : 1;
+}
