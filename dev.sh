@@ -27,6 +27,13 @@ usage: ./dev.sh COMMAND
   setup   install the Debian packages that are missing (needs root or sudo; nothing to do the second time)
   build   setup, then configure and build everything in build/release
   test    setup, build with warnings as errors, run every test
+  check   setup, then what needs no run: the rules of the house (tests/checks/house.py), clang-format, and clang-tidy on
+          the sources that differ from a commit, remembered in ~/.cache; check [--minutes N] [--all] [--odr] [COMMIT]
+          --minutes  clang-tidy begins with no further source after that time, and says which are left
+          --all      clang-tidy on every source, and --odr
+          --odr      a build for -Wodr in build/odr: no type is defined twice
+          --deep     clang's static analyser instead of the other checks of clang-tidy, five times as slow
+          COMMIT     is where this branch left main, or the one before the last on main itself
   demo    setup, build, tone-map a real HDR photograph and more, in build/demo
   gallery setup, build, make every figure of the paper and more in docs/gallery (some minutes)
   docs    setup, make the documentation site in build/docs
@@ -94,6 +101,52 @@ run_test() {
     ctest --test-dir "$build" --output-on-failure -j "$jobs"
 }
 
+# The commit since which sources count as changed.
+base_commit() {
+    local base
+    base=$(git merge-base HEAD origin/main 2>/dev/null || git merge-base HEAD main 2>/dev/null || true)
+    if [[ -z $base || $base == "$(git rev-parse HEAD)" ]]; then
+        base=$(git rev-parse --verify -q HEAD~1 || git rev-parse HEAD)
+    fi
+    echo "$base"
+}
+
+check_odr() {
+    say "the one-definition rule, in build/odr"
+    cmake --preset odr >build/odr.configure.log || { cat build/odr.configure.log; return 1; }
+    cmake --build build/odr -j "$jobs" --target pimgtool pimg.imageio pimg_c
+}
+
+run_check() { # options as in usage()
+    local odr='' base='' tidy=()
+    while [[ $# -gt 0 ]]; do
+        case $1 in
+        --all) odr=1 tidy+=(--all) ;;
+        --odr) odr=1 ;;
+        --deep) tidy+=(--deep) ;;
+        --minutes) tidy+=(--minutes "${2:?}") && shift ;;
+        -*) usage >&2 && exit 2 ;;
+        *) base=$1 ;;
+        esac
+        shift
+    done
+    setup
+    mkdir -p build
+    say "the rules of the house"
+    /usr/bin/python3 -B tests/checks/house_test.py
+    /usr/bin/python3 -B tests/checks/house.py
+    say "clang-format"
+    find . \( -name build -o -name '.?*' \) -prune -o \( -name '*.cpp' -o -name '*.h' -o -name '*.c' \) -print0 |
+        xargs -0 -n 50 -P "$jobs" clang-format --dry-run -Werror
+    say "clang-tidy"
+    cmake --preset release -B build/check -DPIMG_BUILD_BENCH=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >build/check.log ||
+        { cat build/check.log; return 1; }
+    /usr/bin/python3 -B tests/checks/tidy.py build/check --base "${base:-$(base_commit)}" ${tidy[@]+"${tidy[@]}"}
+    if [[ -n $odr ]]; then
+        check_odr
+    fi
+}
+
 run_demo() {
     setup
     say "building pimgtool in $build"
@@ -137,6 +190,7 @@ case $command in
 setup) setup && echo "all packages are installed" ;;
 build) run_build ;;
 test) run_test ;;
+check) run_check "$@" ;;
 demo) run_demo ;;
 gallery) run_gallery ;;
 docs) run_docs ;;

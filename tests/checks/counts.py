@@ -132,7 +132,8 @@ def check_paths(tree):
 
 
 def check(tree):
-    return check_functions(functions(tree), declarations(tree)) + check_files(tree) + check_folders(tree) + check_paths(tree)
+    return (check_functions(functions(tree), declarations(tree)) + check_files(tree) + check_folders(tree)
+            + check_paths(tree))
 
 
 def summary(tree):

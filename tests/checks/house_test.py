@@ -8,6 +8,7 @@ import unittest
 import counts
 import includes
 import mirror
+import tidy
 from sources import Tree
 
 LICENCE = "// SPDX-License-Identifier: BSD-3-Clause\n"
@@ -70,13 +71,20 @@ class Includes(InTree):
         self.assertEqual(includes.check(allowed), [])
 
     def test_installed_headers_include_installed_ones(self):
-        tree = self.tree(core__include__pimg__mesh_h="#include <pimg/detail/ring_edit.h>", core__src__mesh__mesh_cpp="",
-                         core__include__pimg__detail__ring_edit_h="")
+        cmake = "pimg_add_library(core\n HEADERS\n  include/pimg/mesh.h\n DETAIL_HEADERS\n  include/pimg/detail/r.h)"
+        tree = self.tree(core__include__pimg__mesh_h="#include <pimg/detail/r.h>", core__src__mesh__mesh_cpp="",
+                         core__include__pimg__detail__r_h="", core__CMakeLists_txt=cmake)
         self.assert_finds(includes.check(tree), "not installed")
+        tree = self.tree(core__CMakeLists_txt=cmake.replace("DETAIL_HEADERS", ""))
+        self.assertEqual(includes.check(tree), [])
 
-    def test_a_header_nobody_placed(self):
-        findings = includes.check(self.tree(core__include__pimg__new_h=""))
-        self.assert_finds(findings, "belongs to no room")
+    def test_a_header_without_a_source_is_in_the_lowest_room(self):
+        tree = self.tree(core__include__pimg__pair_h="#include <pimg/bands.h>", core__include__pimg__bands_h="",
+                         core__src__sweep__bands_cpp="")
+        self.assert_finds(includes.check(tree), "core/src/mesh includes core/include/pimg/bands.h")
+
+    def test_a_folder_of_no_room(self):
+        self.assert_finds(includes.check(self.tree(painted__src__x_cpp="", codec__x_cpp="")), "belongs to no room")
 
     def test_headers_that_do_not_exist(self):
         self.assert_finds(includes.check(self.tree(plugin__x_cpp="#include <pimg/nowhere.h>")), "no folder has")
@@ -144,6 +152,34 @@ class Mirror(InTree):
         os.makedirs(os.path.join(self.root, "tests/checks"), exist_ok=True)
         with open(os.path.join(self.root, mirror.LIST), "w", encoding="utf-8") as file:
             file.write("# a comment\n" + "\n".join(lines) + "\n")
+
+
+class Tidy(InTree):
+    """Which sources clang-tidy looks at, and when again."""
+
+    def setUp(self):
+        super().setUp()
+        self.made = self.tree(core__src__mesh__mesh_cpp="#include <pimg/mesh.h>", core__include__pimg__ring_h="",
+                              core__src__mesh__hierarchy_cpp="#include <pimg/mesh.h>",
+                              core__include__pimg__mesh_h="#include <pimg/ring.h>", codec__src__container_cpp="")
+        self.sources = self.made.ending(".cpp")
+
+    def key(self, path):
+        tree = Tree(self.root)
+        return tidy.key_of(tree, tidy.Closure(tree), path, "c++ -c")
+
+    def test_a_header_asks_for_the_source_of_its_name_or_one_user(self):
+        closure = tidy.Closure(self.made)
+        for changed, chosen in (("core/include/pimg/mesh.h", ["core/src/mesh/mesh.cpp"]),
+                                ("core/include/pimg/ring.h", ["core/src/mesh/hierarchy.cpp"]),
+                                ("codec/src/container.cpp", ["codec/src/container.cpp"]), ("docs/format.md", [])):
+            self.assertEqual(tidy.select(self.sources, closure, {changed}), chosen)
+
+    def test_a_changed_header_changes_the_key_of_its_users_only(self):
+        before = {path: self.key(path) for path in self.sources}
+        self.tree(core__include__pimg__ring_h="struct Ring;")
+        after = {path: self.key(path) for path in self.sources}
+        self.assertEqual([path for path in self.sources if before[path] == after[path]], ["codec/src/container.cpp"])
 
 
 if __name__ == "__main__":

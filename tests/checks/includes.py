@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The direction of includes: each room of the house sees only those below it. docs/architecture.md draws this picture."""
+"""The direction of includes: each room of the house sees only those below it; docs/architecture.md draws the picture."""
 import os
 import re
 
 from sources import CPP, Finding
 
-# A room is a folder, or one file by its name without extension, with the rooms it may include beside itself. The longest
-# name that begins a path is its room. Public headers belong to the room of the source of the same name (`HEADERS` names
-# those without one).
+# A room is a folder, or one file by its name without extension, with the rooms it may include beside itself. The
+# longest name that begins a path is its room. A public header belongs to the room of the source of the same name.
 ROOMS = {
     "core/src/mesh": [],
     "core/src/sweep": ["core/src/mesh"],
@@ -15,6 +14,7 @@ ROOMS = {
     "core/src/simplify": ["core/src/mesh", "core/src/sweep", "core/src/sampling"],
     "core/src/pieces": ["core/src/mesh", "core/src/sweep"],
     "core/src/smoothing": ["core/src/mesh", "core/src/sweep", "core/src/pieces"],
+    "core/src": ["core"],
     "codec/include": ["core"],
     "codec/src/entropy": [],
     "codec/src/raster": ["codec/include", "codec/src/entropy", "core"],
@@ -39,16 +39,14 @@ ROOMS = {
     "tests": ["plugin", "tools", "filters", "painting", "codec", "core", "capi"],
 }
 
-# Headers without a source of the same name.
+# Where a public header without a source of the same name is: in the lowest room of its library, or here.
+LOWEST = {"core": "core/src/mesh", "codec": "codec/include", "filters": "filters/src/base", "painting": "painting",
+          "capi": "capi"}
 HEADERS = {
-    "codec/include/pimg/codec.h": "codec/include",
-    "core/include/pimg/guide.h": "core/src/mesh",
-    "core/include/pimg/ring.h": "core/src/mesh",
-    "core/include/pimg/types.h": "core/src/mesh",
-    "core/include/pimg/detail/flat_array.h": "core/src/mesh",
-    "core/include/pimg/detail/parallel.h": "core/src/mesh",
-    "core/include/pimg/detail/ring_edit.h": "core/src/mesh",
+    "core/include/pimg/pimg.hpp": "core/src",
+    "filters/include/pimg/pimg.hpp": "filters/src",
     "filters/include/pimg/imagebufalgo.h": "filters/src/ops",
+    "filters/include/pimg/detail/filter_forms.h": "filters/src/ops",
 }
 
 # Generated or umbrella headers, which belong to no room.
@@ -81,29 +79,37 @@ LIBRARIES = ("core", "codec", "painting", "filters", "capi")
 
 
 def longest_prefix(path, names):
-    """The longest of `names` that is `path`, or a folder of it, or its name without extension; None if there is none."""
+    """The longest of `names` that is `path`, a folder of it, or its name without extension; None if there is none."""
     stem = os.path.splitext(path)[0]
     found = [name for name in names if path == name or stem == name or path.startswith(name + "/")]
     return max(found, key=len, default=None)
+
+
+def installed_headers(tree, library):
+    """The headers a library's CMakeLists.txt names after HEADERS or, the C interface, after FILES."""
+    path = f"{library}/CMakeLists.txt"
+    text = tree.text(path) if path in tree.paths else ""
+    headers = re.findall(r"(?<!_)(?:HEADERS|FILES)\s((?:\s*[^\sA-Z)]\S*\.h(?:pp)?\b)*)", text)
+    return [f"{library}/{header}" for group in headers for header in group.split()]
 
 
 class Rooms:
     def __init__(self, tree):
         self.tree = tree
         self.present = set(tree.paths)
+        self.installed = {path for library in LIBRARIES for path in installed_headers(tree, library)}
         self.sources = {}
         for path in tree.ending(".cpp"):
             self.sources.setdefault((path.split("/")[0], os.path.splitext(os.path.basename(path))[0]), path)
 
     def of_file(self, path):
-        """The room of a file; None for a public header nobody has placed."""
+        """The room of a file; None outside the house."""
         if path in HEADERS:
             return HEADERS[path]
         parts = path.split("/")
         if parts[0] in LIBRARIES and parts[1] == "include":
             source = self.sources.get((parts[0], os.path.splitext(parts[-1])[0]))
-            if source:
-                return longest_prefix(source, ROOMS)
+            return longest_prefix(source, ROOMS) if source else LOWEST[parts[0]]
         return longest_prefix(path, ROOMS)
 
     def resolve(self, path, target):
@@ -155,21 +161,19 @@ def check_line(rooms, path, target):
         if target.startswith("pimg/"):
             return f"no folder has <{target}>"
         return check_foreign(room, target)
-    installed = "/include/pimg/" in path and "/detail/" not in path
-    if installed and "/include/pimg/detail/" in resolved:
-        return f"a public header includes <{target}>, which is not installed"
+    if path in rooms.installed and resolved not in rooms.installed:
+        return f"an installed header includes <{target}>, which is not installed"
     other = rooms.of_file(resolved)
-    if other is None:
-        return f"{resolved} belongs to no room: name it in tests/checks/includes.py"
-    if not may_include(room, other):
-        return f"{room} includes {resolved} of {other}; it may include {', '.join(ROOMS[room]) or 'nothing else of ours'}"
+    if other is None or not may_include(room, other):
+        allowed = ", ".join(ROOMS[room]) or "nothing else of ours"
+        return f"{room} includes {resolved} of {other}; it may include {allowed}"
     return None
 
 
 def check(tree):
     rooms = Rooms(tree)
     findings = []
-    for path in tree.ending(*CPP):
+    for path in tree.ending(*CPP, ".hpp"):
         if rooms.of_file(path) is None:
             if path.split("/")[0] in LIBRARIES:
                 findings.append(Finding(path, 1, "belongs to no room: name it in tests/checks/includes.py"))
