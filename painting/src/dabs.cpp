@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <pimg/detail/elementary.h>
 #include <pimg/strokes.h>
 
 namespace pimg {
@@ -143,7 +144,7 @@ float DabOptions::scale(Vec2 p, int width, int height) const
         return 1.0f;
     const int x = std::clamp(int(p.x + 0.5f), 0, width - 1), y = std::clamp(int(p.y + 0.5f), 0, height - 1);
     const float m = detail[std::size_t(y) * std::size_t(width) + std::size_t(x)];
-    return m >= 0.0f && m <= 1.0f ? std::exp2(2.0f - 4.0f * m) : m > 1.0f ? 0.25f : 4.0f;
+    return m >= 0.0f && m <= 1.0f ? float(elementary::exp2(double(2.0f - 4.0f * m))) : m > 1.0f ? 0.25f : 4.0f;
 }
 
 std::vector<Vec2> piece_polygon(const Mesh& mesh, Index vertex)

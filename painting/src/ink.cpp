@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A line of width w in tone d claims a band of w/d to either side, fading outwards like a tent: lines at that
 // distance add up to an even tone. A new line is drawn where less than a share of the tone is claimed yet.
+#include <pimg/detail/elementary.h>
 #include <pimg/ink.h>
 
 #include <algorithm>
@@ -16,7 +17,7 @@ constexpr float kDarkest = 0.9f;      ///< of one direction: lines just leave a 
 constexpr float kFree = 0.35f;        ///< share of the tone claimed where a line may still start
 constexpr float kNear = 0.6f;         ///< ... and where one ends that was started elsewhere
 constexpr float kToneChange = 0.30f;  ///< darkness may change so much along a line
-constexpr float kTone = 1.6f;         ///< exponent of the darkness: pens leave light tones to the paper
+constexpr double kTone = 1.6;         ///< exponent of the darkness: pens leave light tones to the paper
 constexpr int kMostSteps = 24;
 
 struct Tones {
@@ -146,8 +147,9 @@ std::vector<float> with_outlines(const float* darkness, int width, int height, c
             const float gx = 0.5f * (clean(x + 1, y) - clean(x - 1, y)),
                         gy = 0.5f * (clean(x, y + 1) - clean(x, y - 1));
             const float edge = std::max(0.0f, std::sqrt(gx * gx + gy * gy) - 0.04f);
-            wanted[std::size_t(y) * std::size_t(width) + std::size_t(x)] =
-                std::min(1.0f, options.density * std::pow(clean(x, y), kTone) + 4.0f * options.outline * edge);
+            wanted[std::size_t(y) * std::size_t(width) + std::size_t(x)] = std::min(
+                1.0f,
+                options.density * float(elementary::power(double(clean(x, y)), kTone)) + 4.0f * options.outline * edge);
         }
     return wanted;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Plans a painting: dabs in coarse-to-fine order are bent along the edges, fitted between them, and kept when they
 // bring the canvas closer to the picture.
+#include <pimg/detail/elementary.h>
 #include <pimg/detail/parallel.h>
 #include <pimg/strokes.h>
 
@@ -23,6 +24,9 @@ constexpr float kBare = 64.0f;
 
 /// Pixels after which an edge has reached its other side, in the smoothed picture.
 constexpr float kEdgeWidth = 2.0f;
+
+/// The eighth of a full turn, 45 degrees, in radians: the largest turn by jitter_angle.
+constexpr float kEighth = float(elementary::kPi / 4);
 
 /// Distance of places, in widths.
 constexpr float kPitch = 0.5f;
@@ -143,8 +147,9 @@ Draft Planner::draft(Vec2 place, float width, float length, std::uint32_t variat
 
     const Vec2 centre = draft.points[kMostPoints];
     Vec2 along = m_field.at(centre);
-    const float turn = 0.785398f * m_options.jitter_angle * signed_unit(scramble(draft.variation + 2));
-    const float c = std::cos(turn), s = std::sin(turn);
+    const float turn = kEighth * m_options.jitter_angle * signed_unit(scramble(draft.variation + 2));
+    const auto [sine, cosine] = elementary::sine_cosine(double(turn));
+    const float c = float(cosine), s = float(sine);
     along = { c * along.x - s * along.y, s * along.x + c * along.y };
     draft.shade = m_picture.at(centre);
     length = std::clamp(m_options.length * length, kShortest * draft.width,
@@ -169,8 +174,8 @@ Site site_of(const Dab& dab, Index index, const ShadePicture& picture, const Str
 {
     const float scale = options.scale(dab.centre, picture.width(), picture.height());
     const float min = options.min * scale, max = options.max * scale;
-    const int size = int(std::lround(2.0f * std::log2(dab.width / min)));
-    Site site { 0, index, std::clamp(min * std::exp2(0.5f * float(size)), min, max), dab.centre };
+    const int size = int(std::lround(2.0 * elementary::log2(double(dab.width / min))));
+    Site site { 0, index, std::clamp(min * float(elementary::exp2(0.5 * size)), min, max), dab.centre };
     const float pitch = kPitch * site.width;
     const int x = int(std::lround(dab.centre.x / pitch)), y = int(std::lround(dab.centre.y / pitch));
     const std::uint32_t chance = scramble(
@@ -180,7 +185,7 @@ Site site_of(const Dab& dab, Index index, const ShadePicture& picture, const Str
     // Next to an edge the mesh knows the place better.
     if (picture.distance(picture.at(place), picture.at(dab.centre)) < 0.4f * options.crossing)
         site.centre = place;
-    const int bin = std::clamp(int(4.0f * (20.0f - std::log2(site.width))), 0, 255);
+    const int bin = std::clamp(int(4.0 * (20.0 - elementary::log2(double(site.width)))), 0, 255);
     site.key = (std::uint64_t(bin) << 32) + chance;
     return site;
 }

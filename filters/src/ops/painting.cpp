@@ -7,6 +7,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
+#include <pimg/detail/elementary.h>
 #include <pimg/detail/parallel.h>
 
 namespace pimg {
@@ -16,16 +17,10 @@ namespace {
 constexpr float kUnitsToAStop = 255.0f / 6.0f;
 constexpr float kMostStopsOfColour = 3.0f;  ///< a channel is at most so far from the luminance
 
-bool is_integer(OIIO::TypeDesc type)
-{
-    return type.basetype != OIIO::TypeDesc::HALF && type.basetype != OIIO::TypeDesc::FLOAT
-        && type.basetype != OIIO::TypeDesc::DOUBLE;
-}
-
 /// Eye units to a unit of the stored samples.
 float stored_scale(const ProgressiveImage::Data& data)
 {
-    if (is_integer(data.spec.format))
+    if (data.whole_numbers)
         return 256.0f;
     std::vector<float> magnitudes;
     magnitudes.reserve(data.spec.image_pixels());
@@ -52,7 +47,7 @@ OwnedPlanes log_planes(const ProgressiveImage::Data& data, const LogLuminance& l
             const float light = data.colour.luminance(&rgb[3 * x]);
             for (std::size_t c = 0; c < 3; ++c) {
                 const float ratio = light > 0.0f ? rgb[3 * x + c] / light : 1.0f;
-                const float tint = ratio > 0.0f ? std::log2(ratio) : -kMostStopsOfColour;
+                const float tint = ratio > 0.0f ? float(elementary::log2(double(ratio))) : -kMostStopsOfColour;
                 planes.channels[c][first + x] =
                     kUnitsToAStop * (stops + std::clamp(tint, -kMostStopsOfColour, kMostStopsOfColour));
             }
@@ -193,7 +188,8 @@ float srgb_encoded(float linear)
 {
     if (!(linear > 0.0f))
         return 0.0f;
-    return linear < 0.0031308f ? 12.92f * linear : 1.055f * std::pow(std::min(linear, 1.0f), 1.0f / 2.4f) - 0.055f;
+    return linear < 0.0031308f ? 12.92f * linear
+                               : 1.055f * float(elementary::power(double(std::min(linear, 1.0f)), 1.0 / 2.4)) - 0.055f;
 }
 
 }  // namespace pimg

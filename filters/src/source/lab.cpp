@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include <pimg/detail/elementary.h>
 #include <pimg/detail/parallel.h>
 
 namespace pimg {
@@ -15,9 +16,9 @@ float lightness(float t)
 {
     constexpr float kEpsilon = 216.0f / 24389.0f, kKappa = 24389.0f / 27.0f;
     if (t > 1.0f)
-        return 1.0f + std::log(t) / 3.0f;
+        return 1.0f + float(elementary::kLn2 / 3.0 * elementary::log2(double(t)));
     if (t > kEpsilon)
-        return std::cbrt(t);
+        return float(elementary::cube_root(double(t)));
     return t > 0.0f ? (kKappa * t + 16.0f) / 116.0f : 16.0f / 116.0f;
 }
 

@@ -7,6 +7,7 @@
 #include <pimg/colour.h>
 #include <pimg/simplify.h>
 
+#include <pimg/detail/elementary.h>
 #include <pimg/detail/parallel.h>
 
 namespace pimg {
@@ -56,7 +57,8 @@ Raster mean_luminance(const Raster& log, const ParallelFor& parallel)
         for (int column = 0; column < means.width; ++column) {
             float total = 0.0f;
             for_covered(column, means.width, log.width, [&](int x, float w) { total += w * sum[std::size_t(x)]; });
-            means.samples[std::size_t(row * means.width + column)] = std::log2(total / area) * kUnitsPerStop;
+            means.samples[std::size_t(row * means.width + column)] =
+                float(elementary::log2(double(total / area))) * kUnitsPerStop;
         }
     });
     return means;

@@ -131,8 +131,8 @@ bool ProgressiveImage::Data::read(const OIIO::ImageBuf& src, std::string& error)
     // What the file stored tells an 8-bit picture that was read as float from a scene-referred one.
     OIIO::ImageSpec stored = spec;
     stored.format = src.nativespec().format;
-    m_whole_numbers = !stored.format.is_floating_point();
-    stats.guide = !options.guide.empty() ? options.guide : m_whole_numbers ? "luma" : "log";
+    whole_numbers = !stored.format.is_floating_point();
+    stats.guide = !options.guide.empty() ? options.guide : whole_numbers ? "luma" : "log";
     return Colour::resolve(stored, options.incolorspace, colour, error);
 }
 
@@ -174,7 +174,7 @@ bool ProgressiveImage::Data::hierarchy_of_guide(const MakeHierarchy& make_hierar
     } else if (stats.guide == "lab")
         channels = lab_guide(source, colour, parallel);
     else {
-        StoredGuide stored = stored_guide(source, colour, stats.guide == "rgb", m_whole_numbers, parallel);
+        StoredGuide stored = stored_guide(source, colour, stats.guide == "rgb", whole_numbers, parallel);
         m_guide_scale = stored.scale;
         m_guide_clipped = stored.clipped;
         channels = std::move(stored.channels);

@@ -36,6 +36,7 @@ struct ProgressiveImage::Data {
     OIIO::ImageSpec spec;
     BuildOptions options;
     Colour colour;
+    bool whole_numbers = false;  ///< the picture's file or memory has integers, here 0..1; all scales follow this
     std::vector<SpecialSample> specials;  ///< by pixel, then channel
     Hierarchy hierarchy;
     std::vector<Bands> guide_bands;
@@ -83,7 +84,6 @@ private:
     std::unique_ptr<LogBands> m_log;
     std::unique_ptr<ChannelBands> m_channels;
     std::unique_ptr<SmoothingData> m_smoothing[2];  ///< as stored, logarithms
-    bool m_whole_numbers = false;                   ///< the picture's own samples are integers, here 0..1
     float m_guide_scale = 0.0f;                     ///< see StoredGuide; of luma and rgb guides
     bool m_guide_clipped = false;
     Bands m_log_bands;  ///< if they are not the guide's

@@ -190,6 +190,34 @@ TEST(painting, works_on_odd_pictures)
             }
 }
 
+/// One picture, as bytes in memory and as float read from a file of bytes.
+TEST(painting, takes_an_8_bit_file_read_as_float_for_what_it_is)
+{
+    ImageBuf bytes = picture(90, 70, OIIO::TypeDesc::UINT8, 3);
+    bytes.specmod().attribute("oiio:ColorSpace", "sRGB");
+    ASSERT_TRUE(bytes.write("bytes.png")) << bytes.geterror();
+    ImageBuf floats("bytes.png");
+    ASSERT_TRUE(floats.read(0, 0, true, OIIO::TypeDesc::FLOAT)) << floats.geterror();
+    ASSERT_EQ(floats.spec().format, OIIO::TypeDesc(OIIO::TypeDesc::FLOAT));
+    for (const char* guide : { "", "rgb", "log" }) {
+        pimg::BuildOptions build;
+        build.guide = guide;
+        pimg::ProgressiveImage a, b;
+        ASSERT_TRUE(a.build(bytes, build)) << a.error();
+        ASSERT_TRUE(b.build(floats, build)) << b.error();
+        EXPECT_EQ(a.stats().guide, b.stats().guide);
+        const auto check = [&](const ImageBuf& one, const ImageBuf& other) {
+            ASSERT_FALSE(one.has_error() || other.has_error()) << one.geterror() << other.geterror();
+            EXPECT_EQ(one.spec().format, OIIO::TypeDesc(OIIO::TypeDesc::UINT8));
+            EXPECT_EQ(other.spec().format, OIIO::TypeDesc(OIIO::TypeDesc::FLOAT));
+            EXPECT_TRUE(same_bits(one, other.copy(OIIO::TypeDesc::UINT8))) << guide;
+        };
+        check(iba::paint(a), iba::paint(b));
+        check(iba::mosaic(a), iba::mosaic(b));
+        check(iba::ink(a), iba::ink(b));
+    }
+}
+
 TEST(mosaic, one_tile_colour_between_joints)
 {
     const ImageBuf src = picture(120, 90);
