@@ -120,12 +120,4 @@ void write_channels(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, OII
     });
 }
 
-bool build_source(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, int nthreads, ProgressiveImage& progressive)
-{
-    if (progressive.build(src, {}, nthreads))
-        return true;
-    set_error(dst, progressive.error());
-    return false;
-}
-
 }  // namespace pimg

@@ -80,17 +80,4 @@ bool run_filter(OIIO::ImageBuf& dst, const Options& options, Body&& body)
     return false;
 }
 
-/// Builds the progressive image for the overloads that take a plain picture.
-bool build_source(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, int nthreads, ProgressiveImage& progressive);
-
-/// The third part: returns what `filter(result)` made, with an error if it failed without one.
-template<class Filter>
-OIIO::ImageBuf returned(const char* name, Filter&& filter)
-{
-    OIIO::ImageBuf result;
-    if (!filter(result) && !result.has_error())
-        set_error(result, format("{} error", name));
-    return result;
-}
-
 }  // namespace pimg

@@ -153,8 +153,8 @@ bool by_strength(ProgressiveImage::Data& data, const DetailEnhanceOptions& optio
 
 }  // namespace
 
-bool detail_enhance(ImageBuf& dst, const ProgressiveImage& src, const DetailEnhanceOptions& options, ROI roi,
-                    int nthreads)
+bool on_hierarchy::detail_enhance(ImageBuf& dst, const ProgressiveImage& src, const DetailEnhanceOptions& options,
+                                  ROI roi, int nthreads)
 {
     return run_filter(dst, options, [&] {
         if (!prepare(dst, src, roi, ResultType::floating))
@@ -171,22 +171,6 @@ bool detail_enhance(ImageBuf& dst, const ProgressiveImage& src, const DetailEnha
         write_channels(dst, data, roi, parallel, results);
         return true;
     });
-}
-
-bool detail_enhance(ImageBuf& dst, const ImageBuf& src, const DetailEnhanceOptions& options, ROI roi, int nthreads)
-{
-    ProgressiveImage progressive;
-    return build_source(dst, src, nthreads, progressive) && detail_enhance(dst, progressive, options, roi, nthreads);
-}
-
-ImageBuf detail_enhance(const ImageBuf& src, const DetailEnhanceOptions& options, ROI roi, int nthreads)
-{
-    return returned("detail_enhance", [&](ImageBuf& dst) { return detail_enhance(dst, src, options, roi, nthreads); });
-}
-
-ImageBuf detail_enhance(const ProgressiveImage& src, const DetailEnhanceOptions& options, ROI roi, int nthreads)
-{
-    return returned("detail_enhance", [&](ImageBuf& dst) { return detail_enhance(dst, src, options, roi, nthreads); });
 }
 
 }  // namespace ImageBufAlgo

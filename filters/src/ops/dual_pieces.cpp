@@ -10,7 +10,8 @@
 namespace pimg {
 namespace ImageBufAlgo {
 
-bool dual_pieces(ImageBuf& dst, const ProgressiveImage& src, const DualPiecesOptions& options, ROI roi, int nthreads)
+bool on_hierarchy::dual_pieces(ImageBuf& dst, const ProgressiveImage& src, const DualPiecesOptions& options, ROI roi,
+                               int nthreads)
 {
     return run_filter(dst, options, [&] {
         if (!prepare_partition(dst, src, roi, options.output))
@@ -30,22 +31,6 @@ bool dual_pieces(ImageBuf& dst, const ProgressiveImage& src, const DualPiecesOpt
         return write_partition(dst, *src.data(), roi, pool_loop(nthreads),
                                { pieces.count(level), pieces.labels(level) }, options.output);
     });
-}
-
-bool dual_pieces(ImageBuf& dst, const ImageBuf& src, const DualPiecesOptions& options, ROI roi, int nthreads)
-{
-    ProgressiveImage progressive;
-    return build_source(dst, src, nthreads, progressive) && dual_pieces(dst, progressive, options, roi, nthreads);
-}
-
-ImageBuf dual_pieces(const ImageBuf& src, const DualPiecesOptions& options, ROI roi, int nthreads)
-{
-    return returned("dual_pieces", [&](ImageBuf& dst) { return dual_pieces(dst, src, options, roi, nthreads); });
-}
-
-ImageBuf dual_pieces(const ProgressiveImage& src, const DualPiecesOptions& options, ROI roi, int nthreads)
-{
-    return returned("dual_pieces", [&](ImageBuf& dst) { return dual_pieces(dst, src, options, roi, nthreads); });
 }
 
 }  // namespace ImageBufAlgo

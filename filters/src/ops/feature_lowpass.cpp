@@ -65,8 +65,8 @@ void by_strength(ProgressiveImage::Data& data, const FeatureLowpassOptions& opti
 
 }  // namespace
 
-bool feature_lowpass(ImageBuf& dst, const ProgressiveImage& src, const FeatureLowpassOptions& options, ROI roi,
-                     int nthreads)
+bool on_hierarchy::feature_lowpass(ImageBuf& dst, const ProgressiveImage& src, const FeatureLowpassOptions& options,
+                                   ROI roi, int nthreads)
 {
     return run_filter(dst, options, [&] {
         if (!prepare(dst, src, roi, ResultType::as_source))
@@ -85,24 +85,6 @@ bool feature_lowpass(ImageBuf& dst, const ProgressiveImage& src, const FeatureLo
         write_channels(dst, data, roi, parallel, results);
         return true;
     });
-}
-
-bool feature_lowpass(ImageBuf& dst, const ImageBuf& src, const FeatureLowpassOptions& options, ROI roi, int nthreads)
-{
-    ProgressiveImage progressive;
-    return build_source(dst, src, nthreads, progressive) && feature_lowpass(dst, progressive, options, roi, nthreads);
-}
-
-ImageBuf feature_lowpass(const ImageBuf& src, const FeatureLowpassOptions& options, ROI roi, int nthreads)
-{
-    return returned("feature_lowpass",
-                    [&](ImageBuf& dst) { return feature_lowpass(dst, src, options, roi, nthreads); });
-}
-
-ImageBuf feature_lowpass(const ProgressiveImage& src, const FeatureLowpassOptions& options, ROI roi, int nthreads)
-{
-    return returned("feature_lowpass",
-                    [&](ImageBuf& dst) { return feature_lowpass(dst, src, options, roi, nthreads); });
 }
 
 }  // namespace ImageBufAlgo

@@ -219,7 +219,8 @@ bool resolve_hdr_compress(const ImageBuf& src, HdrCompressOptions& options, std:
     return true;
 }
 
-bool hdr_compress(ImageBuf& dst, const ProgressiveImage& src, const HdrCompressOptions& options, ROI roi, int nthreads)
+bool on_hierarchy::hdr_compress(ImageBuf& dst, const ProgressiveImage& src, const HdrCompressOptions& options, ROI roi,
+                                int nthreads)
 {
     return run_filter(dst, options, [&] {
         if (!prepare(dst, src, roi, ResultType::full_float))
@@ -237,22 +238,6 @@ bool hdr_compress(ImageBuf& dst, const ProgressiveImage& src, const HdrCompressO
         declare_linear(dst, data.colour);
         return true;
     });
-}
-
-bool hdr_compress(ImageBuf& dst, const ImageBuf& src, const HdrCompressOptions& options, ROI roi, int nthreads)
-{
-    ProgressiveImage progressive;
-    return build_source(dst, src, nthreads, progressive) && hdr_compress(dst, progressive, options, roi, nthreads);
-}
-
-ImageBuf hdr_compress(const ImageBuf& src, const HdrCompressOptions& options, ROI roi, int nthreads)
-{
-    return returned("hdr_compress", [&](ImageBuf& dst) { return hdr_compress(dst, src, options, roi, nthreads); });
-}
-
-ImageBuf hdr_compress(const ProgressiveImage& src, const HdrCompressOptions& options, ROI roi, int nthreads)
-{
-    return returned("hdr_compress", [&](ImageBuf& dst) { return hdr_compress(dst, src, options, roi, nthreads); });
 }
 
 }  // namespace ImageBufAlgo

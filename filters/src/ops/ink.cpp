@@ -48,7 +48,7 @@ bool draw(ProgressiveImage::Data& data, const InkOptions& options, const Paralle
 
 }  // namespace
 
-bool ink(ImageBuf& dst, const ProgressiveImage& src, const InkOptions& options, ROI roi, int nthreads)
+bool on_hierarchy::ink(ImageBuf& dst, const ProgressiveImage& src, const InkOptions& options, ROI roi, int nthreads)
 {
     return run_filter(dst, options, [&] {
         if (!prepare(dst, src, roi, ResultType::as_source))
@@ -65,22 +65,6 @@ bool ink(ImageBuf& dst, const ProgressiveImage& src, const InkOptions& options, 
         write_channels(dst, data, roi, parallel, results, Specials::replaced);
         return true;
     });
-}
-
-bool ink(ImageBuf& dst, const ImageBuf& src, const InkOptions& options, ROI roi, int nthreads)
-{
-    ProgressiveImage progressive;
-    return build_source(dst, src, nthreads, progressive) && ink(dst, progressive, options, roi, nthreads);
-}
-
-ImageBuf ink(const ImageBuf& src, const InkOptions& options, ROI roi, int nthreads)
-{
-    return returned("ink", [&](ImageBuf& dst) { return ink(dst, src, options, roi, nthreads); });
-}
-
-ImageBuf ink(const ProgressiveImage& src, const InkOptions& options, ROI roi, int nthreads)
-{
-    return returned("ink", [&](ImageBuf& dst) { return ink(dst, src, options, roi, nthreads); });
 }
 
 }  // namespace ImageBufAlgo

@@ -62,7 +62,8 @@ bool find_level(const Hierarchy& hierarchy, const LevelOptions& options, Level& 
     return true;
 }
 
-bool level_image(ImageBuf& dst, const ProgressiveImage& src, const LevelOptions& options, ROI roi, int nthreads)
+bool on_hierarchy::level_image(ImageBuf& dst, const ProgressiveImage& src, const LevelOptions& options, ROI roi,
+                               int nthreads)
 {
     return run_filter(dst, options, [&] {
         if (!prepare(dst, src, roi, ResultType::as_source))
@@ -81,22 +82,6 @@ bool level_image(ImageBuf& dst, const ProgressiveImage& src, const LevelOptions&
         write_channels(dst, data, roi, parallel, picture.channels, specials);
         return true;
     });
-}
-
-bool level_image(ImageBuf& dst, const ImageBuf& src, const LevelOptions& options, ROI roi, int nthreads)
-{
-    ProgressiveImage progressive;
-    return build_source(dst, src, nthreads, progressive) && level_image(dst, progressive, options, roi, nthreads);
-}
-
-ImageBuf level_image(const ImageBuf& src, const LevelOptions& options, ROI roi, int nthreads)
-{
-    return returned("level_image", [&](ImageBuf& dst) { return level_image(dst, src, options, roi, nthreads); });
-}
-
-ImageBuf level_image(const ProgressiveImage& src, const LevelOptions& options, ROI roi, int nthreads)
-{
-    return returned("level_image", [&](ImageBuf& dst) { return level_image(dst, src, options, roi, nthreads); });
 }
 
 }  // namespace ImageBufAlgo

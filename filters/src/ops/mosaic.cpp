@@ -13,7 +13,8 @@
 namespace pimg {
 namespace ImageBufAlgo {
 
-bool mosaic(ImageBuf& dst, const ProgressiveImage& src, const MosaicOptions& options, ROI roi, int nthreads)
+bool on_hierarchy::mosaic(ImageBuf& dst, const ProgressiveImage& src, const MosaicOptions& options, ROI roi,
+                          int nthreads)
 {
     return run_filter(dst, options, [&] {
         if (!prepare(dst, src, roi, ResultType::as_source))
@@ -43,22 +44,6 @@ bool mosaic(ImageBuf& dst, const ProgressiveImage& src, const MosaicOptions& opt
         write_channels(dst, data, roi, parallel, planes.channels, Specials::replaced);
         return true;
     });
-}
-
-bool mosaic(ImageBuf& dst, const ImageBuf& src, const MosaicOptions& options, ROI roi, int nthreads)
-{
-    ProgressiveImage progressive;
-    return build_source(dst, src, nthreads, progressive) && mosaic(dst, progressive, options, roi, nthreads);
-}
-
-ImageBuf mosaic(const ImageBuf& src, const MosaicOptions& options, ROI roi, int nthreads)
-{
-    return returned("mosaic", [&](ImageBuf& dst) { return mosaic(dst, src, options, roi, nthreads); });
-}
-
-ImageBuf mosaic(const ProgressiveImage& src, const MosaicOptions& options, ROI roi, int nthreads)
-{
-    return returned("mosaic", [&](ImageBuf& dst) { return mosaic(dst, src, options, roi, nthreads); });
 }
 
 }  // namespace ImageBufAlgo

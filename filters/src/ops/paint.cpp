@@ -190,7 +190,7 @@ bool paint_canvas(ProgressiveImage::Data& data, const PaintOptions& options, con
 
 }  // namespace
 
-bool paint(ImageBuf& dst, const ProgressiveImage& src, const PaintOptions& options, ROI roi, int nthreads)
+bool on_hierarchy::paint(ImageBuf& dst, const ProgressiveImage& src, const PaintOptions& options, ROI roi, int nthreads)
 {
     return run_filter(dst, options, [&] {
         if (!prepare(dst, src, roi, ResultType::as_source))
@@ -208,22 +208,6 @@ bool paint(ImageBuf& dst, const ProgressiveImage& src, const PaintOptions& optio
                        untouched ? Specials::restored : Specials::replaced);
         return true;
     });
-}
-
-bool paint(ImageBuf& dst, const ImageBuf& src, const PaintOptions& options, ROI roi, int nthreads)
-{
-    ProgressiveImage progressive;
-    return build_source(dst, src, nthreads, progressive) && paint(dst, progressive, options, roi, nthreads);
-}
-
-ImageBuf paint(const ImageBuf& src, const PaintOptions& options, ROI roi, int nthreads)
-{
-    return returned("paint", [&](ImageBuf& dst) { return paint(dst, src, options, roi, nthreads); });
-}
-
-ImageBuf paint(const ProgressiveImage& src, const PaintOptions& options, ROI roi, int nthreads)
-{
-    return returned("paint", [&](ImageBuf& dst) { return paint(dst, src, options, roi, nthreads); });
 }
 
 }  // namespace ImageBufAlgo

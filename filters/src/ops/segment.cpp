@@ -39,7 +39,8 @@ bool find_regions(ProgressiveImage::Data& data, const SegmentOptions& options, c
 
 }  // namespace
 
-bool segment(ImageBuf& dst, const ProgressiveImage& src, const SegmentOptions& options, ROI roi, int nthreads)
+bool on_hierarchy::segment(ImageBuf& dst, const ProgressiveImage& src, const SegmentOptions& options, ROI roi,
+                           int nthreads)
 {
     return run_filter(dst, options, [&] {
         if (!prepare_partition(dst, src, roi, options.output))
@@ -56,22 +57,6 @@ bool segment(ImageBuf& dst, const ProgressiveImage& src, const SegmentOptions& o
         }
         return write_partition(dst, data, roi, parallel, regions, options.output);
     });
-}
-
-bool segment(ImageBuf& dst, const ImageBuf& src, const SegmentOptions& options, ROI roi, int nthreads)
-{
-    ProgressiveImage progressive;
-    return build_source(dst, src, nthreads, progressive) && segment(dst, progressive, options, roi, nthreads);
-}
-
-ImageBuf segment(const ImageBuf& src, const SegmentOptions& options, ROI roi, int nthreads)
-{
-    return returned("segment", [&](ImageBuf& dst) { return segment(dst, src, options, roi, nthreads); });
-}
-
-ImageBuf segment(const ProgressiveImage& src, const SegmentOptions& options, ROI roi, int nthreads)
-{
-    return returned("segment", [&](ImageBuf& dst) { return segment(dst, src, options, roi, nthreads); });
 }
 
 }  // namespace ImageBufAlgo

@@ -30,7 +30,8 @@ void draw_over(const std::vector<float>& coverage, std::vector<float>& channel)
 
 }  // namespace
 
-bool wireframe(ImageBuf& dst, const ProgressiveImage& src, const WireframeOptions& options, ROI roi, int nthreads)
+bool on_hierarchy::wireframe(ImageBuf& dst, const ProgressiveImage& src, const WireframeOptions& options, ROI roi,
+                             int nthreads)
 {
     return run_filter(dst, options, [&] {
         if (!prepare(dst, src, roi, ResultType::as_source))
@@ -58,22 +59,6 @@ bool wireframe(ImageBuf& dst, const ProgressiveImage& src, const WireframeOption
         write_channels(dst, data, roi, parallel, picture.channels, Specials::replaced);
         return true;
     });
-}
-
-bool wireframe(ImageBuf& dst, const ImageBuf& src, const WireframeOptions& options, ROI roi, int nthreads)
-{
-    ProgressiveImage progressive;
-    return build_source(dst, src, nthreads, progressive) && wireframe(dst, progressive, options, roi, nthreads);
-}
-
-ImageBuf wireframe(const ImageBuf& src, const WireframeOptions& options, ROI roi, int nthreads)
-{
-    return returned("wireframe", [&](ImageBuf& dst) { return wireframe(dst, src, options, roi, nthreads); });
-}
-
-ImageBuf wireframe(const ProgressiveImage& src, const WireframeOptions& options, ROI roi, int nthreads)
-{
-    return returned("wireframe", [&](ImageBuf& dst) { return wireframe(dst, src, options, roi, nthreads); });
 }
 
 }  // namespace ImageBufAlgo
