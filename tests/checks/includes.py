@@ -46,7 +46,7 @@ HEADERS = {
     "core/include/pimg/pimg.hpp": "core/src",
     "filters/include/pimg/pimg.hpp": "filters/src",
     "filters/include/pimg/imagebufalgo.h": "filters/src/ops",
-    "filters/include/pimg/detail/filter_forms.h": "filters/src/ops",
+    "filters/include/pimg/detail/filter_forms.h": "filters/src/frame",
 }
 
 # Generated or umbrella headers, which belong to no room.

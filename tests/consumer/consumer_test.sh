@@ -25,7 +25,7 @@ grep -q "complete -F _pimgtool" moved/share/bash-completion/completions/pimgtool
 echo "== find_package"
 "$CMAKE" -S "$here" -B project -G "$GENERATOR" -DCMAKE_PREFIX_PATH="$PWD/moved" >configure.log
 "$CMAKE" --build project >build.log || { cat build.log; exit 1; }
-for program in use_core use_filters use_c; do
+for program in use_core use_0_1 use_filters use_c; do
     check_version project/$program
 done
 
