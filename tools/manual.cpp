@@ -80,37 +80,9 @@ std::string manual_page()
     return text;
 }
 
-std::string bash_completion()
-{
-    std::string names, keys, values, words;
-    for (const CommandGroup& group : command_table())
-        for (const Command& command : group.commands) {
-            names += format(" {}", command.name);
-            const std::string choices = choices_for(command.words);
-            if (!choices.empty())
-                words += format("        [{}]={}\n", command.name, quoted(choices));
-            if (!command.keys)
-                continue;
-            std::string own;
-            for (const pimg::OptionInfo& key : command.keys()) {
-                own += format("{}{}=", own.empty() ? "" : " ", key.key);
-                const std::string chosen = key.type == "flag" ? "0|1" : key.choices;
-                if (!chosen.empty())
-                    values += format("        [{}:{}]={}\n", command.name, key.key,
-                                     quoted(OIIO::Strutil::replace(chosen, "|", " ", true)));
-            }
-            keys += format("        [{}]={}\n", command.name, quoted(own));
-        }
-    // Of the word, bash replaces only what follows the last of its own word breaks, ':' and '=' among them.
-    return "# Completion of pimgtool for bash.\n"
-           "_pimgtool() {\n"
-           "    local names="
-        + quoted(names.substr(1))
-        + "\n"
-          "    local -A keys=(\n"
-        + keys + "    ) values=(\n" + values + "    ) words=(\n" + words
-        + "    )\n"
-          R"BASH(    local line=${COMP_LINE:0:COMP_POINT}
+/// The rest of the function for bash, after its tables. Of the word, bash replaces only what follows the last of its own
+/// word breaks, ':' and '=' among them.
+static constexpr char kCompletion[] = R"BASH(    local line=${COMP_LINE:0:COMP_POINT}
     local word=${line##* } before=${line% *}
     local previous=${before##* } choices done_part=
     COMPREPLY=()
@@ -135,6 +107,35 @@ std::string bash_completion()
 }
 complete -F _pimgtool pimgtool
 )BASH";
+
+std::string bash_completion()
+{
+    std::string names, keys, values, words;
+    for (const CommandGroup& group : command_table())
+        for (const Command& command : group.commands) {
+            names += format(" {}", command.name);
+            const std::string choices = choices_for(command.words);
+            if (!choices.empty())
+                words += format("        [{}]={}\n", command.name, quoted(choices));
+            if (!command.keys)
+                continue;
+            std::string own;
+            for (const pimg::OptionInfo& key : command.keys()) {
+                own += format("{}{}=", own.empty() ? "" : " ", key.key);
+                const std::string chosen = key.type == "flag" ? "0|1" : key.choices;
+                if (!chosen.empty())
+                    values += format("        [{}:{}]={}\n", command.name, key.key,
+                                     quoted(OIIO::Strutil::replace(chosen, "|", " ", true)));
+            }
+            keys += format("        [{}]={}\n", command.name, quoted(own));
+        }
+    return "# Completion of pimgtool for bash.\n"
+           "_pimgtool() {\n"
+           "    local names="
+        + quoted(names.substr(1))
+        + "\n"
+          "    local -A keys=(\n"
+        + keys + "    ) values=(\n" + values + "    ) words=(\n" + words + "    )\n" + kCompletion;
 }
 
 }  // namespace pimgtool

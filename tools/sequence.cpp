@@ -92,6 +92,19 @@ bool parse_one(const std::vector<std::string>& arguments, const Frame& frame, co
     return true;
 }
 
+/// What is thrown becomes the session's error.
+bool run_caught(const std::function<bool(const Program&, Session&)>& run, const Program& program, Session& session)
+{
+    try {
+        return run(program, session);
+    } catch (const std::bad_alloc&) {
+        session.fail("not enough memory");
+    } catch (const std::exception& e) {
+        session.fail(e.what());
+    }
+    return false;
+}
+
 }  // namespace
 
 std::string for_frame(const std::string& argument, const Frame& frame)
@@ -157,14 +170,7 @@ bool for_each_frame(const std::vector<Program>& programs, bool parallel, Stats& 
             session.verbose = program.verbose;
             for (const std::string& input : program.inputs)
                 session.announce(input);
-            bool done = false;
-            try {
-                done = run(program, session);
-            } catch (const std::bad_alloc&) {
-                session.fail("not enough memory");
-            } catch (const std::exception& e) {
-                session.fail(e.what());
-            }
+            const bool done = run_caught(run, program, session);
             const std::lock_guard<std::mutex> lock(mutex);
             stats.add(session.stats);
             if (done)

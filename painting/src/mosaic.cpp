@@ -41,9 +41,7 @@ Depth depth_of(Vec2 p, const std::vector<Vec2>& polygon, Vec2 far_corner)
     return in ? nearest : Depth { -nearest.inside, -nearest.x, -nearest.y };
 }
 
-}  // namespace
-
-Tiling tile(const Mesh& mesh, const ParallelFor& parallel)
+Tiling empty_tiling(const Mesh& mesh)
 {
     Tiling tiling;
     tiling.width = mesh.extent().x / kSubpixels + 1;
@@ -53,7 +51,14 @@ Tiling tile(const Mesh& mesh, const ParallelFor& parallel)
     tiling.inside.resize(pixels, -1e30f);
     tiling.away_x.resize(pixels);
     tiling.away_y.resize(pixels);
+    return tiling;
+}
 
+}  // namespace
+
+Tiling tile(const Mesh& mesh, const ParallelFor& parallel)
+{
+    Tiling tiling = empty_tiling(mesh);
     const Vec2 corner { float(tiling.width - 1), float(tiling.height - 1) };
     const std::size_t strips = std::size_t(tiling.height + kStrip - 1) / kStrip;
     std::vector<std::vector<Vec2>> polygons(mesh.size());

@@ -117,6 +117,21 @@ AdaptiveBit& flag_model(MeshModels& models, const MeshLayerHead& head, const Can
     return models.flag[size * 2 + int(touched)];
 }
 
+/// The values of one channel at the base mesh's vertices; false if one is out of range or the data end early.
+static bool read_values(BinaryReader& in, std::uint64_t count, std::vector<std::int32_t>& values)
+{
+    LayerInput io { in };
+    NumberModel model;
+    std::int64_t last = 0;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        last += signed_number(io, model, 0);
+        if (last < kMeshValueLow || last > kMeshValueHigh || in.overrun())
+            return false;
+        values.push_back(std::int32_t(last));
+    }
+    return true;
+}
+
 Status MeshLayerReader::read_base(const std::uint8_t* data, std::size_t size)
 {
     const auto bad = [] {
@@ -158,16 +173,9 @@ Status MeshLayerReader::read_base(const std::uint8_t* data, std::size_t size)
     Status status = Mesh::from_triangles(std::move(positions), triangles, m_extent, m_layer.mesh);
     if (!status)
         return status;
-    for (std::vector<std::int32_t>& z : m_layer.values) {
-        NumberModel value;
-        std::int64_t last = 0;
-        for (std::uint64_t i = 0; i < points; ++i) {
-            last += signed_number(io, value, 0);
-            if (last < kMeshValueLow || last > kMeshValueHigh || in.overrun())
-                return bad();
-            z.push_back(std::int32_t(last));
-        }
-    }
+    for (std::vector<std::int32_t>& z : m_layer.values)
+        if (!read_values(in, points, z))
+            return bad();
     m_touched.assign(std::size_t(points), 0);
     return {};
 }

@@ -26,6 +26,25 @@ std::vector<Index> finest_pieces(const Hierarchy& h)
     return vertex_at;
 }
 
+/// Where each vertex's run of pixels begins: its own pixels first, then its children's runs, the youngest next to it.
+/// Taking the children from old to young, each gets the end of what is left of its parent's run.
+std::vector<Index> first_of_runs(const std::vector<Index>& parents, const std::vector<Index>& span, Index base)
+{
+    std::vector<Index> first(parents.size()), left = span;
+    Index next = 0;
+    for (Index v = 0; v < parents.size(); ++v) {
+        const Index parent = parents[v];
+        if (v < base) {
+            first[v] = next;
+            next += span[v];
+        } else {
+            left[parent] -= span[v];
+            first[v] = first[parent] + left[parent];
+        }
+    }
+    return first;
+}
+
 }  // namespace
 
 Status DualPieces::from_hierarchy(const Hierarchy& h, DualPieces& pieces)
@@ -61,21 +80,7 @@ Status DualPieces::from_hierarchy(const Hierarchy& h, DualPieces& pieces)
     for (Index v = vertices; v-- > d.m_base;)
         d.m_span[d.m_parents[v]] += d.m_span[v];
 
-    // Each vertex's run: its own pixels first, then its children's runs, the youngest next to it. Taking the children
-    // from old to young, each gets the end of what is left of its parent's run.
-    d.m_first.resize(vertices);
-    std::vector<Index> left = d.m_span;
-    Index next = 0;
-    for (Index v = 0; v < vertices; ++v) {
-        const Index parent = d.m_parents[v];
-        if (v < d.m_base) {
-            d.m_first[v] = next;
-            next += d.m_span[v];
-        } else {
-            left[parent] -= d.m_span[v];
-            d.m_first[v] = d.m_first[parent] + left[parent];
-        }
-    }
+    d.m_first = first_of_runs(d.m_parents, d.m_span, d.m_base);
     d.m_order.resize(d.m_vertex_of.size());
     for (Index p = Index(d.m_vertex_of.size()); p-- > 0;) {
         const Index v = d.m_vertex_of[p];
@@ -203,7 +208,8 @@ std::vector<Centroid> label_centroids(const std::vector<Index>& labels, Index co
     for (std::size_t p = 0; p < labels.size(); ++p) {
         Sum& s = sums[labels[p]];
         s.x += double(p % std::size_t(width));
-        s.y += double(p / std::size_t(width));
+        const std::size_t row = p / std::size_t(width);
+        s.y += double(row);
         s.n += 1.0;
     }
     std::vector<Centroid> result(count);

@@ -57,16 +57,14 @@ VolumeStencil volume_stencil(const Mesh& fine, Index s, Index u, Point coarse)
         lost[i] += before - after;
         lost[next] += before - after;
     }
-    if (stencil.vertex[0] != kGhost) {
-        const double shared = area(t, pu, points[0]);
-        lost[0] += shared;
+    const auto share = [&](int corner, double shared) {
+        if (stencil.vertex[corner] == kGhost)
+            return;
+        lost[corner] += shared;
         around_u += shared;
-    }
-    if (stencil.vertex[vl] != kGhost) {
-        const double shared = area(t, points[vl], pu);
-        lost[vl] += shared;
-        around_u += shared;
-    }
+    };
+    share(0, area(t, pu, points[0]));
+    share(vl, area(t, points[vl], pu));
     for (int i = 0; i < n; ++i)
         if (stencil.vertex[i] != kGhost) {
             stencil.vertex[stencil.size] = stencil.vertex[i];
