@@ -230,6 +230,7 @@ void thicken(const std::vector<Index>& vertices, InitialMesh& mesh)
         pixels.erase(std::unique(pixels.begin(), pixels.end()), pixels.end());
     };
     std::vector<Point> around;
+    around.reserve(vertices.size());
     for (Index v : vertices)
         around.push_back(mesh.pixel(v));
     merge();
