@@ -330,7 +330,10 @@ bool ReadRequest::change_spec(ImageSpec& spec, std::string& error) const
         Colour colour;
         if (!Colour::resolve(spec, build.incolorspace, colour, error))
             return false;
-        declare_space(spec, display ? "sRGB" : colour.linear_name());
+        if (display)
+            declare_space(spec, "sRGB");
+        else
+            colour.declare_linear(spec);
     }
     const std::string mask = m_filter->mask();
     if (!mask.empty()) {

@@ -140,7 +140,7 @@ Filters are methods; results are of the kind of the source. May be used from sev
                R"(srgb_encoded(src, *, nthreads=0)
 --
 
-The colour channels of linear light with the sRGB curve on them, float: for screens and 8-bit files.)");
+Linear light for screens and 8-bit files, as float: colours in Rec. 709, whatever primaries the metadata say, encoded sRGB.)");
     module.def(
         "options", [](const std::string& name) { return to_list(options_of(name)); }, py::arg("name"),
         R"(options(name)

@@ -144,7 +144,7 @@ At most one option; none means the finest level.)",
 const char* const kSourceText = R"(
 
 The source is a ProgressiveImage, an OpenImageIO.ImageBuf, or a NumPy array of shape (height, width) or
-(height, width, channels): uint8 (taken as sRGB), uint16, float16, float32 or float64 (scene-linear light of any
+(height, width, channels): uint8 or uint16 (taken as sRGB), float16, float32 or float64 (linear light of any
 range). The result is of the same kind. A picture's hierarchy is built on the way: for more than one
 result, build() it once. The GIL is released.)";
 

@@ -52,10 +52,22 @@ OIIO::ColorConfig& colour_config()
     return config;
 }
 
-bool is_linear_space(const std::string& name)
+bool holds_linear_light(const OIIO::ImageSpec& stored)
 {
-    return Strutil::iequals(name, "linear") || Strutil::iequals(name, "scene_linear")
-        || Strutil::istarts_with(name, "lin_") || colour_config().isColorSpaceLinear(name);
+    pimg::Colour colour;
+    std::string error;
+    return stored.format.is_floating_point() && pimg::Colour::resolve(stored, "", colour, error) && !colour.encoded();
+}
+
+std::string scene_linear_space()
+{
+    const char* name = colour_config().getColorSpaceNameByRole("scene_linear");
+    return name != nullptr ? name : "linear";
+}
+
+std::string convertible_space(const pimg::Colour& colour)
+{
+    return colour.config_name().empty() ? scene_linear_space() : colour.config_name();
 }
 
 bool is_known_space(const std::string& name, std::string& error)
@@ -65,15 +77,6 @@ bool is_known_space(const std::string& name, std::string& error)
         return true;
     error = pimg::format("no colour space \"{}\": expected one of {}", name, Strutil::join(names, ", "));
     return false;
-}
-
-std::string configured_space(const std::string& name)
-{
-    const OIIO::ColorConfig& config = colour_config();
-    std::string error;
-    if (!is_known_space(name, error) && is_linear_space(name) && config.getColorSpaceNameByRole("scene_linear"))
-        return "scene_linear";
-    return name;
 }
 
 OIIO::ColorProcessorHandle conversion(const std::string& from, const std::string& to, const ConversionOptions& options,
@@ -128,11 +131,15 @@ std::string display_space(const std::string& display, const std::string& view)
     return name && *name != '<' ? name : "";  // not "<USE_DISPLAY_NAME>"
 }
 
-std::string space_of_file(const std::string& filename, const std::string& declared)
+std::string space_of_file(const std::string& filename, const OIIO::ImageSpec& stored)
 {
-    const bool names_space = contains(colour_config().getColorSpaceNames(), declared);
-    const bool is_usual = is_linear_space(declared) || Strutil::iequals(declared, "sRGB") || declared.empty();
-    const std::string rule = names_space && !is_usual ? "" : pimg::space_by_file_rule(filename);
+    const std::string declared = stored.get_string_attribute("oiio:ColorSpace");
+    const bool is_usual = declared.empty() || Strutil::iequals(declared, "linear") || Strutil::iequals(declared, "sRGB")
+        || Strutil::iequals(declared, "Rec709") || Strutil::istarts_with(declared, "lin_rec709")
+        || Strutil::istarts_with(declared, "srgb_rec709");
+    const bool says_more =
+        stored.find_attribute("chromaticities") != nullptr || stored.find_attribute("ICCProfile") != nullptr;
+    const std::string rule = is_usual && !says_more ? pimg::space_by_file_rule(filename) : "";
     return rule.empty() ? declared : rule;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <OpenImageIO/color.h>
+#include <pimg/colour.h>
 #include <pimg/display.h>
 
 namespace pimgtool {
@@ -29,12 +30,13 @@ bool set_context_variable(const std::string& assignment, std::string& error);
 /// The configuration $OCIO names, else OpenImageIO's own few spaces.
 OIIO::ColorConfig& colour_config();
 
-/// True for names of linear-light spaces, whatever the configuration.
-bool is_linear_space(const std::string& name);
+/// Whether a picture with such metadata holds linear light as floating-point numbers, for which whole numbers are encoded.
+bool holds_linear_light(const OIIO::ImageSpec& stored);
 
-/// The name the configuration has for a picture's space. Files say "Linear" without knowing the configuration: where
-/// it has no such name, its scene-linear role is meant.
-std::string configured_space(const std::string& name);
+/// The name that conversions know a picture's space by. Where there is none, its colours are to be converted to
+/// scene-linear first: see Colour::to_scene_linear().
+std::string convertible_space(const pimg::Colour& colour);
+std::string scene_linear_space();
 
 /// False, with a line saying what there is, for names of spaces the configuration has not.
 bool is_known_space(const std::string& name, std::string& error);
@@ -54,9 +56,9 @@ OIIO::ColorProcessorHandle display_transform(const std::string& display, const s
 /// The name of the space that transform leads to; empty if the configuration does not say.
 std::string display_space(const std::string& display, const std::string& view);
 
-/// The space of a file: as a rule of the configuration has it if its metadata names no space of the configuration but
-/// at best what the format is usually in; else as the metadata says.
-std::string space_of_file(const std::string& filename, const std::string& declared);
+/// The space of a file, for oiio:ColorSpace: as a rule of the configuration has it if the metadata names no space but at
+/// best what the format is usually in, and holds neither chromaticities nor an ICC profile; else as the metadata says.
+std::string space_of_file(const std::string& filename, const OIIO::ImageSpec& stored);
 
 using pimg::declare_space;
 using pimg::srgb_encoded;

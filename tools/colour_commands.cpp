@@ -87,9 +87,33 @@ bool convert_colours(Session& session, const OIIO::ColorProcessorHandle& process
     return done;
 }
 
-std::string space_of(const Picture& picture)
+/// Finds the space of the top picture's colours, which become scene-linear if no conversion would know them.
+bool take_space(Session& session, std::string& space)
 {
-    return configured_space(picture.pixels->spec().get_string_attribute("oiio:ColorSpace", "Linear"));
+    pimg::Colour colour;
+    std::string error;
+    const ImageSpec& spec = session.top().pixels->spec();
+    if (!pimg::Colour::resolve(spec, "", colour, error))
+        return session.fail(error);
+    space = convertible_space(colour);
+    if (!colour.config_name().empty() || colour.count() < 3)
+        return true;
+    return session.change_pixels([&](ImageBuf& dst, const ImageBuf& src) {
+        if (!dst.copy(src, OIIO::TypeFloat))
+            return false;
+        declare_space(dst.specmod(), space);
+        std::vector<float> rgb;
+        rgb.reserve(3 * dst.spec().image_pixels());
+        for (ImageBuf::ConstIterator<float> pixel(dst); !pixel.done(); ++pixel)
+            for (int i = 0; i < 3; ++i)
+                rgb.push_back(pixel[colour.channel(i)]);
+        const bool converted = colour.to_scene_linear(rgb.data(), rgb.size() / 3);
+        const float* result = rgb.data();
+        for (ImageBuf::Iterator<float> pixel(dst); converted && !pixel.done(); ++pixel)
+            for (int i = 0; i < 3; ++i)
+                pixel[colour.channel(i)] = *result++;
+        return converted;
+    });
 }
 
 bool check_colorconvert(const Words& words, const ConversionOptions& options, std::string& error)
@@ -106,12 +130,13 @@ bool colorconvert(Session& session, const Words& words, const ConversionOptions&
 
 bool check_tocolorspace(const Words& words, const ConversionOptions& options, std::string& error)
 {
-    return bool(conversion(configured_space("linear"), words[0], options, error));
+    return bool(conversion(scene_linear_space(), words[0], options, error));
 }
 
 bool tocolorspace(Session& session, const Words& words, const ConversionOptions& options)
 {
-    return colorconvert(session, { space_of(session.top()), words[0] }, options);
+    std::string space;
+    return take_space(session, space) && colorconvert(session, { space, words[0] }, options);
 }
 
 bool check_ociodisplay(const Words& words, const DisplayOptions& options, std::string& error)
@@ -123,7 +148,9 @@ bool check_ociodisplay(const Words& words, const DisplayOptions& options, std::s
 bool ociodisplay(Session& session, const Words& words, const DisplayOptions& options)
 {
     std::string display = words[0], view = words[1], error;
-    const std::string from = options.from.empty() ? space_of(session.top()) : options.from;
+    std::string from = options.from;
+    if (from.empty() && !take_space(session, from))
+        return false;
     OIIO::ColorProcessorHandle processor;
     if (find_display(display, view, error))
         processor = display_transform(display, view, from, options, error);
@@ -140,7 +167,9 @@ bool incolorspace(Session& session, const Words& words)
         return true;
     });
     Picture& top = session.top();
-    top.linear_light = top.stored.all.is_floating_point() && is_linear_space(words[0]);
+    ImageSpec stored = top.pixels->spec();
+    stored.format = top.stored.all;
+    top.linear_light = holds_linear_light(stored);
     return done;
 }
 

@@ -20,24 +20,19 @@ namespace {
 
 using pimg::format;
 
-/// Pictures of floating-point numbers hold linear light unless they say otherwise.
-bool holds_linear_light(const OIIO::ImageSpec& stored)
-{
-    const std::string space = stored.get_string_attribute("oiio:ColorSpace");
-    return stored.format.is_floating_point() && (space.empty() || is_linear_space(space));
-}
-
 PixelTypes pixel_types(const OIIO::ImageSpec& stored)
 {
     return { stored.format, stored.channelformats };
 }
 
-std::string describe(const OIIO::ImageBuf& pixels, const PixelTypes& types)
+std::string describe(const OIIO::ImageSpec& stored)
 {
-    const OIIO::ImageSpec& spec = pixels.spec();
-    return format("{} x {}, {} channel{}, {} {}", spec.width, spec.height, spec.nchannels,
-                  spec.nchannels == 1 ? "" : "s", types.all.c_str(),
-                  spec.get_string_attribute("oiio:ColorSpace", "of no stated colour space"));
+    pimg::Colour colour;
+    std::string error;
+    const std::string meaning =
+        pimg::Colour::resolve(stored, "", colour, error) ? "taken as " + colour.description() : error;
+    return format("{} x {}, {} channel{}, {}, {}", stored.width, stored.height, stored.nchannels,
+                  stored.nchannels == 1 ? "" : "s", stored.format.c_str(), meaning);
 }
 
 bool same_options(const pimg::BuildOptions& a, const pimg::BuildOptions& b)
@@ -84,7 +79,7 @@ bool Session::read(const std::string& filename)
         return false;
 
     const std::string space = stored.get_string_attribute("oiio:ColorSpace");
-    if (const std::string ruled = space_of_file(filename, space); ruled != space) {
+    if (const std::string ruled = space_of_file(filename, stored); ruled != space) {
         declare_space(pixels->specmod(), ruled);
         declare_space(stored, ruled);
     }
@@ -97,7 +92,7 @@ bool Session::read(const std::string& filename)
     picture.hierarchy = std::make_shared<LazyHierarchy>();
     if (pimg::io::file_of(filename) == filename)
         picture.hierarchy->stored = StoredHierarchy::open(filename);
-    say(format("{}: {}, {:.2f} s", filename, describe(*pixels, picture.stored), timer.seconds()));
+    say(format("{}: {}, {:.2f} s", filename, describe(stored), timer.seconds()));
     stack.push_back(picture);
     if (again)
         m_kept[filename] = picture;

@@ -59,8 +59,9 @@ GRADE = """<ColorCorrection id="{id}"><SOPNode><Slope>{slope} {slope} {slope}</S
 
 BLENDER = "/usr/share/blender/datafiles/colormanagement/config.ocio"
 
-AP1_LUMINANCE = np.array([0.2722287, 0.6740818, 0.0536895])
-AP0_LUMINANCE = np.array([0.3439665, 0.7281661, -0.0721325])
+# Y in Rec. 709 of each primary, white adapted by Bradford's method: one scene has one luminance, whatever it is stored in.
+AP1_LUMINANCE = np.array([0.2676014, 0.6743990, 0.0579996])
+AP0_LUMINANCE = np.array([0.3372618, 0.7296076, -0.0668694])
 REC709_LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 needs_oiiotool = unittest.skipUnless(os.environ.get("OIIOTOOL"), "no oiiotool")

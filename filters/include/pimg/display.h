@@ -9,7 +9,8 @@
 
 namespace pimg {
 
-/// The colour channels of a linear picture with the sRGB curve on them, as float; alpha and other channels as they are.
+/// A linear picture for displays, as float: its colours converted to Rec. 709 from the primaries its metadata say, see
+/// Colour::resolve(), and encoded sRGB. Alpha and other channels stay as they are. On failure the result has an error.
 OIIO::ImageBuf srgb_encoded(const OIIO::ImageBuf& src, int nthreads = 0);
 
 /// The sRGB curve on `count` numbers in place; straight on below 0 and above 1.

@@ -74,10 +74,11 @@ struct BuildOptions {
     std::string weights;            ///< of the errors of the guide's channels, above 0: "1,0.5,0.5"; empty: 1 each
     int base = 128;                 ///< faces of the base mesh
     std::string metric = "volume";  ///< cost of a collapse; quadric and exact are slow, for comparison
-    std::string incolorspace;       ///< colour space of the picture; empty: its oiio:ColorSpace, else sRGB for 8 bit,
-                                    ///< else scene-linear
-    std::string mesh = "full";      ///< full: one vertex per pixel; adaptive: fewer, and a residual (section 6)
-    float density = 0.33f;          ///< share of the pixels an adaptive mesh keeps
+    std::string
+        incolorspace;  ///< colour space of the picture; empty: its oiio:ColorSpace, else sRGB for whole numbers,
+                       ///< else scene-linear
+    std::string mesh = "full";         ///< full: one vertex per pixel; adaptive: fewer, and a residual (section 6)
+    float density = 0.33f;             ///< share of the pixels an adaptive mesh keeps
     std::string control = "gradient";  ///< what its density follows: gradient, curvature, or an image file's brightness
 };
 

@@ -10,6 +10,11 @@
 
 #include <OpenColorIO/OpenColorIO.h>
 
+#include <pimg/display.h>
+
+#include "colour/primaries.h"
+#include "colour/spaces.h"
+
 namespace OCIO = OCIO_NAMESPACE;
 
 namespace pimg {
@@ -22,14 +27,12 @@ namespace {
 
 using Weights = std::array<float, 3>;
 
-/// xy of R, G, B and white.
-using Chromaticities = std::array<double, 8>;
+/// Rec. ITU-R BT.709, as Colour has them to begin with.
+constexpr Weights kRec709Weights { 0.2126f, 0.7152f, 0.0722f };
 
-constexpr Chromaticities kRec709 { 0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290 };
-constexpr Chromaticities kRec2020 { 0.708, 0.292, 0.170, 0.797, 0.131, 0.046, 0.3127, 0.3290 };
-constexpr Chromaticities kP3 { 0.680, 0.320, 0.265, 0.690, 0.150, 0.060, 0.3127, 0.3290 };
-constexpr Chromaticities kAp0 { 0.7347, 0.2653, 0.0, 1.0, 0.0001, -0.077, 0.32168, 0.33767 };
-constexpr Chromaticities kAp1 { 0.713, 0.293, 0.165, 0.830, 0.128, 0.044, 0.32168, 0.33767 };
+/// Matrices closer to each other than this are the same but for rounding of what configurations and files hold: a quarter
+/// of an 8-bit code.
+constexpr double kSameMatrix = 2e-3;
 
 std::string lower(std::string text)
 {
@@ -90,29 +93,6 @@ OCIO::ConstCPUProcessorRcPtr log2_processor()
     return cpu(raw_config()->getProcessor(transform));
 }
 
-/// Luminance of RGB with the given primaries: the Y row of its matrix to CIE XYZ, which is what R, G and B
-/// must weigh for their sum to be white. False for degenerate primaries.
-bool weights_of(const Chromaticities& c, Weights& weights)
-{
-    const auto cross = [](double ax, double ay, double bx, double by) {
-        return ax * by - ay * bx;
-    };
-    double sum = 0.0;
-    std::array<double, 3> y {};
-    for (int i = 0; i < 3; ++i) {
-        // Share of primary i in white, by barycentric coordinates in xy, then scaled to white's Y.
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        const double xj = c[2 * j], yj = c[2 * j + 1], xk = c[2 * k], yk = c[2 * k + 1];
-        const double area = cross(xj - c[2 * i], yj - c[2 * i + 1], xk - c[2 * i], yk - c[2 * i + 1]);
-        const double share = cross(xj - c[6], yj - c[7], xk - c[6], yk - c[7]);
-        y[std::size_t(i)] = share / area * c[2 * i + 1];
-        sum += y[std::size_t(i)];
-    }
-    for (std::size_t i = 0; i < 3; ++i)
-        weights[i] = float(y[i] / sum);
-    return std::all_of(weights.begin(), weights.end(), [](float w) { return std::isfinite(w); });
-}
-
 /// Whether the processor only scales: f(1000 x) = 1000 f(x), tried on grey.
 bool is_linear(const OCIO::ConstCPUProcessorRcPtr& processor)
 {
@@ -125,9 +105,10 @@ bool is_linear(const OCIO::ConstCPUProcessorRcPtr& processor)
     return true;
 }
 
-/// Y of red, green and blue of a space, by a linear conversion to a space where Y is `y` times its components.
-bool weights_through(const OCIO::ConstConfigRcPtr& config, const char* space, const char* known, const Weights& y,
-                     Weights& weights)
+/// From a space of the configuration to Rec. 709, by way of a space that is known to have these primaries. False if the
+/// configuration has none such or one of the two is not linear.
+bool matrix_through(const OCIO::ConstConfigRcPtr& config, const char* space, const char* known,
+                    const Chromaticities& primaries, Matrix3& matrix)
 {
     const OCIO::ConstColorSpaceRcPtr to = config->getColorSpace(known);
     if (to == nullptr || to->getReferenceSpaceType() != OCIO::REFERENCE_SPACE_SCENE)
@@ -135,93 +116,79 @@ bool weights_through(const OCIO::ConstConfigRcPtr& config, const char* space, co
     const auto processor = cpu(config->getProcessor(space, to->getName()));
     if (!is_linear(processor))
         return false;
+    Matrix3 columns, known_matrix, inverse;
     for (std::size_t i = 0; i < 3; ++i) {
         float unit[3] = { 0.0f, 0.0f, 0.0f };
         unit[i] = 1.0f;
         processor->applyRGB(unit);
-        weights[i] = y[0] * unit[0] + y[1] * unit[1] + y[2] * unit[2];
+        for (std::size_t j = 0; j < 3; ++j)
+            columns[3 * j + i] = double(unit[j]);
     }
-    const float sum = weights[0] + weights[1] + weights[2];
-    for (float& w : weights)
-        w /= sum;
-    return std::isfinite(weights[0] + weights[1] + weights[2]);
+    if (!matrix_to_rec709(primaries, known_matrix))
+        return false;
+    matrix = product(known_matrix, columns);
+    return invert(matrix, inverse);
 }
 
-/// Primaries of linear spaces known by name; false for other names.
-bool weights_by_name(const std::string& name, Weights& weights)
+/// From a linear space of the configuration to Rec. 709; see Colour::resolve().
+bool matrix_of(const OCIO::ConstConfigRcPtr& config, const char* space, Matrix3& matrix)
 {
-    if (is_one_of(name, { "acescg", "aces - acescg", "lin_ap1", "lin_ap1_scene" }))
-        return weights_of(kAp1, weights);
-    if (is_one_of(name, { "aces2065-1", "aces - aces2065-1", "lin_ap0", "lin_ap0_scene", "aces" }))
-        return weights_of(kAp0, weights);
-    return false;
+    const bool found = matrix_through(config, space, "aces_interchange", kAp0, matrix)
+        || matrix_through(config, space, "cie_xyz_d65_interchange", kXyzD65, matrix)
+        || matrix_through(config, space, "XYZ", kXyzD65, matrix);
+    NamedSpace named;
+    if (!found && find_named_space(lower(config->getColorSpace(space)->getName()), named) && named.linear())
+        return matrix_to_rec709(named.primaries, matrix);
+    if (const Chromaticities* known = found ? known_primaries(matrix, kSameMatrix) : nullptr)
+        return matrix_to_rec709(*known, matrix);
+    return found;
 }
 
-/// The weights of well-known primaries that these are within a hundredth of, else these: a conversion between whites,
-/// which shifts them a little, is no property of the primaries.
-Weights without_adaptation(const Weights& found)
-{
-    Weights nearest = found;
-    float least = 0.01f;
-    for (const Chromaticities& primaries : { kRec709, kRec2020, kP3, kAp0, kAp1 }) {
-        Weights known;
-        weights_of(primaries, known);
-        float distance = 0.0f;
-        for (std::size_t i = 0; i < 3; ++i)
-            distance = std::max(distance, std::fabs(known[i] - found[i]));
-        if (distance < least) {
-            least = distance;
-            nearest = known;
-        }
-    }
-    return nearest;
-}
-
-/// Luminance weights of a linear space of the configuration; see Colour::resolve().
-Weights weights_of(const OCIO::ConstConfigRcPtr& config, const char* space)
-{
-    Weights weights, ap0;
-    weights_of(kAp0, ap0);
-    if (weights_through(config, space, "aces_interchange", ap0, weights))
-        return without_adaptation(weights);
-    for (const char* xyz : { "cie_xyz_d65_interchange", "XYZ" })
-        if (weights_through(config, space, xyz, { 0.0f, 1.0f, 0.0f }, weights))
-            return without_adaptation(weights);
-    if (weights_by_name(lower(config->getColorSpace(space)->getName()), weights))
-        return weights;
-    double luma[3];
-    config->getDefaultLumaCoefs(luma);
-    for (std::size_t i = 0; i < 3; ++i)
-        weights[i] = float(luma[i]);
-    return weights;
-}
-
-/// Decoder of an engine-owned transfer curve: ((v + offset) / (1 + offset))^gamma with a linear toe, or a plain power.
-OCIO::ConstCPUProcessorRcPtr curve(double gamma, double offset)
+OCIO::TransformRcPtr curve(double gamma, double offset)
 {
     if (offset == 0.0) {
         const auto transform = OCIO::ExponentTransform::Create();
         transform->setValue({ gamma, gamma, gamma, 1.0 });
-        return cpu(raw_config()->getProcessor(transform));
+        return transform;
     }
     const auto transform = OCIO::ExponentWithLinearTransform::Create();
     transform->setGamma({ gamma, gamma, gamma, 1.0 });
     transform->setOffset({ offset, offset, offset, 0.0 });
-    return cpu(raw_config()->getProcessor(transform));
+    return transform;
 }
 
-/// "gamma2.2" and the like; 0 if the name is none.
-double gamma_of(const std::string& name)
+OCIO::TransformRcPtr matrix_transform(const Matrix3& m)
 {
-    if (name.rfind("gamma", 0) != 0 || name.size() < 6)
-        return 0.0;
-    const double gamma = std::strtod(name.c_str() + 5, nullptr);
-    return gamma >= 0.1 && gamma <= 10.0 ? gamma : 0.0;
+    const double rows[16] = { m[0], m[1], m[2], 0, m[3], m[4], m[5], 0, m[6], m[7], m[8], 0, 0, 0, 0, 1 };
+    const auto transform = OCIO::MatrixTransform::Create();
+    transform->setMatrix(rows);
+    return transform;
 }
 
 bool says_only_linear(const std::string& name)
 {
     return is_one_of(name, { "", "linear", "scene_linear" });
+}
+
+std::vector<float> to_floats(const Chromaticities& primaries)
+{
+    return { primaries.begin(), primaries.end() };
+}
+
+void multiply(const std::array<float, 9>& m, float* rgb, std::size_t count)
+{
+    for (float* p = rgb; p != rgb + 3 * count; p += 3) {
+        const float r = p[0], g = p[1], b = p[2];
+        for (std::size_t i = 0; i < 3; ++i)
+            p[i] = m[3 * i] * r + m[3 * i + 1] * g + m[3 * i + 2] * b;
+    }
+}
+
+std::array<float, 9> to_floats(const Matrix3& matrix)
+{
+    std::array<float, 9> result;
+    std::copy(matrix.begin(), matrix.end(), result.begin());
+    return result;
 }
 
 }  // namespace
@@ -236,20 +203,90 @@ struct ColourFinder {
         colour.m_decoder = std::make_shared<Colour::Decoder>(Colour::Decoder { processor });
     }
 
+    /// Linear samples are these times Rec. 709.
+    void set_matrix(const Matrix3& to_rec709)
+    {
+        Matrix3 inverse;
+        colour.m_converts = !is_near(to_rec709, kIdentity, kSameMatrix) && invert(to_rec709, inverse);
+        colour.m_weights = kRec709Weights;
+        if (!colour.m_converts)
+            return;
+        colour.m_to_rec709 = to_floats(to_rec709);
+        colour.m_from_rec709 = to_floats(inverse);
+        for (std::size_t i = 0; i < 3; ++i)
+            colour.m_weights[i] =
+                float(double(kRec709Weights[0]) * to_rec709[i] + double(kRec709Weights[1]) * to_rec709[3 + i]
+                      + double(kRec709Weights[2]) * to_rec709[6 + i]);
+    }
+
+    bool set_primaries(const Chromaticities& primaries)
+    {
+        Matrix3 matrix;
+        if (!matrix_to_rec709(primaries, matrix))
+            return false;
+        set_matrix(matrix);
+        colour.m_chromaticities = to_floats(primaries);
+        return true;
+    }
+
+    /// Linear samples in a space of the configuration.
+    void use_linear_space(const char* name)
+    {
+        Matrix3 matrix;
+        colour.m_linear_name = config->getColorSpace(name)->getName();
+        if (matrix_of(config, name, matrix)) {
+            set_matrix(matrix);
+            const Chromaticities* known = known_primaries(matrix, kSameMatrix);
+            if (known != nullptr && colour.m_converts)
+                colour.m_chromaticities = to_floats(*known);
+            return;
+        }
+        double luma[3];
+        config->getDefaultLumaCoefs(luma);
+        for (std::size_t i = 0; i < 3; ++i)
+            colour.m_weights[i] = float(luma[i]);
+    }
+
+    bool has_scene_linear() const { return config != nullptr && config->hasRole(OCIO::ROLE_SCENE_LINEAR); }
+
     /// Scene-linear samples: the role of that name if there is a configuration.
     void use_scene_linear()
     {
-        const char* role = OCIO::ROLE_SCENE_LINEAR;
-        if (config == nullptr || !config->hasRole(role))
-            return;
-        colour.m_weights = weights_of(config, role);
-        colour.m_linear_name = config->getColorSpace(role)->getName();
+        if (has_scene_linear())
+            use_linear_space(OCIO::ROLE_SCENE_LINEAR);
+    }
+
+    /// The same for samples as they are stored.
+    bool use_samples_as_scene_linear()
+    {
+        use_scene_linear();
+        colour.m_config_name = has_scene_linear() ? colour.m_linear_name : "linear";
+        return true;
+    }
+
+    /// Samples that `decoder` makes linear, with these primaries; in a configuration they become its scene-linear.
+    bool use_encoded(const OCIO::TransformRcPtr& decoder, const Chromaticities& primaries)
+    {
+        Matrix3 own, working, from_rec709;
+        if (!matrix_to_rec709(primaries, own))
+            return false;
+        const auto group = OCIO::GroupTransform::Create();
+        group->appendTransform(decoder);
+        if (has_scene_linear() && matrix_of(config, OCIO::ROLE_SCENE_LINEAR, working) && invert(working, from_rec709)) {
+            if (!is_near(own, working, kSameMatrix))
+                group->appendTransform(matrix_transform(product(from_rec709, own)));
+            use_scene_linear();
+        } else if (!is_near(own, kIdentity, kSameMatrix))
+            set_primaries(primaries);
+        set_decoder(cpu(raw_config()->getProcessor(group)));
+        return true;
     }
 
     /// sRGB as the configuration calls it, so that its primaries are converted, too.
     bool use_config_srgb()
     {
-        for (const char* name : { "sRGB", "sRGB - Texture", "srgb_texture", "srgb_tx", "Utility - sRGB - Texture" })
+        for (const char* name : { "sRGB", "sRGB - Texture", "srgb_texture", "srgb_tx", "Utility - sRGB - Texture",
+                                  "sRGB Encoded Rec.709 (sRGB)", "srgb_rec709_scene" })
             if (use_config_space(name))
                 return true;
         return false;
@@ -260,8 +297,8 @@ struct ColourFinder {
         const OCIO::ConstColorSpaceRcPtr space = config == nullptr ? nullptr : config->getColorSpace(name.c_str());
         if (space == nullptr)
             return false;
-        const bool has_role = config->hasRole(OCIO::ROLE_SCENE_LINEAR);
-        if (!space->isData() && has_role) {
+        colour.m_config_name = space->getName();
+        if (!space->isData() && has_scene_linear()) {
             const auto to_linear = cpu(config->getProcessor(space->getName(), OCIO::ROLE_SCENE_LINEAR));
             if (!is_linear(to_linear)) {
                 set_decoder(to_linear);
@@ -269,30 +306,25 @@ struct ColourFinder {
                 return true;
             }
         }
-        colour.m_weights = weights_of(config, space->getName());
-        colour.m_linear_name = space->getName();
+        use_linear_space(space->getName());
         return true;
     }
 
     bool use_own_space(const std::string& name)
     {
-        const double gamma = gamma_of(name);
-        const bool is_srgb =
-            is_one_of(name, { "srgb", "srgb_texture", "srgb_tx", "srgb - texture", "srgb_rec709_scene" });
-        if (is_srgb && use_config_srgb())
+        NamedSpace space;
+        if (is_one_of(lower(name), { "linear", "scene_linear" }))
+            return use_samples_as_scene_linear();
+        if (names_srgb(lower(name)) && use_config_srgb())
             return true;
-        if (is_srgb)
-            set_decoder(curve(2.4, 0.055));
-        else if (is_one_of(name, { "rec709", "rec.709" }))
-            set_decoder(curve(1.0 / 0.45, 0.099));
-        else if (gamma > 0.0)
-            set_decoder(curve(gamma, 0.0));
-        else if (is_one_of(name, { "linear", "scene_linear" }))
-            use_scene_linear();
-        else
-            return weights_by_name(name, colour.m_weights)
-                || is_one_of(name, { "lin_rec709", "lin_rec709_scene", "lin_srgb", "raw", "data" });
-        return true;
+        if (!find_named_space(lower(name), space))
+            return false;
+        if (config == nullptr && space.primaries == kRec709)  // as OpenImageIO calls these
+            colour.m_config_name = names_srgb(lower(name)) ? "sRGB" : lower(name) == "rec709" ? "Rec709" : "";
+        if (!space.linear())
+            return use_encoded(curve(space.gamma, space.offset), space.primaries);
+        colour.m_linear_name = name;
+        return set_primaries(space.primaries);
     }
 
     bool use_chromaticities(const OIIO::ImageSpec& spec)
@@ -304,10 +336,14 @@ struct ColourFinder {
         Chromaticities c;
         const float* stored = static_cast<const float*>(attribute->data());
         std::copy(stored, stored + 8, c.begin());
-        Weights weights;
-        if (!weights_of(c, weights))
+        Matrix3 own, working = kIdentity;
+        if (!matrix_to_rec709(c, own))
             return false;
-        colour.m_weights = weights;
+        const bool comparable = !has_scene_linear() || matrix_of(config, OCIO::ROLE_SCENE_LINEAR, working);
+        if (comparable && is_near(own, working, kSameMatrix))
+            use_samples_as_scene_linear();
+        set_matrix(own);
+        colour.m_chromaticities.assign(stored, stored + 8);
         return true;
     }
 
@@ -335,20 +371,38 @@ struct ColourFinder {
     /// Pictures without three colours: the first is the luminance.
     void use_first_channel()
     {
-        if (colour.m_count < 3)
-            colour.m_weights = { 1.0f, 0.0f, 0.0f };
+        if (colour.m_count >= 3)
+            return;
+        colour.m_weights = { 1.0f, 0.0f, 0.0f };
+        colour.m_converts = false;
     }
 
     /// From the picture's own metadata and type.
     void use_metadata(const OIIO::ImageSpec& spec)
     {
-        const std::string name = spec.get_string_attribute("oiio:ColorSpace");
-        if (!says_only_linear(lower(name)) && (use_config_space(name) || use_own_space(lower(name))))
+        std::string name = spec.get_string_attribute("oiio:ColorSpace");
+        // OpenImageIO 2 calls every file of the PNM family Rec709, the floats of a PFM among them, which are linear.
+        const bool is_pfm = spec.format.is_floating_point() && spec.find_attribute("pnm:bigendian") != nullptr;
+        if (is_pfm && lower(name) == "rec709")
+            name.clear();
+        if (says_only_linear(lower(name)))
+            name = spec.get_string_attribute("colorInteropID", name);
+        if (!says_only_linear(lower(name)) && (use_config_space(name) || use_own_space(name))) {
+            colour.m_description = name + ", as its metadata say";
             return;
-        if (spec.format == OIIO::TypeDesc::UINT8 && lower(name) != "linear")
-            use_own_space("srgb");
-        else if (!use_chromaticities(spec))
-            use_scene_linear();
+        }
+        const bool whole_numbers = !spec.format.is_floating_point();
+        if (whole_numbers && (name.empty() || !says_only_linear(lower(name)))) {
+            use_own_space("sRGB");
+            colour.m_description = "sRGB, as whole numbers are";
+        } else if (use_chromaticities(spec)) {
+            colour.m_description = "linear light with the chromaticities of its metadata";
+        } else {
+            use_samples_as_scene_linear();
+            const std::string primaries = has_scene_linear() ? colour.m_linear_name : "Rec. 709";
+            const char* reason = whole_numbers ? "as its metadata say" : "as floating-point numbers are";
+            colour.m_description = "linear light in " + primaries + ", " + reason;
+        }
     }
 };
 
@@ -385,11 +439,13 @@ bool Colour::resolve(const OIIO::ImageSpec& spec, const std::string& space, Colo
         finder.find_channels(spec);
         if (space.empty()) {
             finder.use_metadata(spec);
-        } else if (!finder.use_config_space(space) && !finder.use_own_space(lower(space))) {
+        } else if (!finder.use_config_space(space) && !finder.use_own_space(space)) {
             error = "incolorspace=\"" + space
                 + "\": expected a colour space of the OpenColorIO configuration, or linear,"
-                  " srgb, rec709, gamma2.2, acescg or aces2065-1";
+                  " srgb, rec709, gamma2.2, acescg, aces2065-1, lin_rec2020 or the like";
             return false;
+        } else {
+            found.m_description = space + ", as told";
         }
         finder.use_first_channel();
         colour = std::move(found);
@@ -411,6 +467,41 @@ void Colour::decode(float* rgb, std::size_t count) const
         return;
     OCIO::PackedImageDesc image(rgb, long(count), 1, 3);
     m_decoder->cpu->apply(image);
+}
+
+void Colour::to_rec709(float* rgb, std::size_t count) const
+{
+    if (m_converts)
+        multiply(m_to_rec709, rgb, count);
+}
+
+void Colour::from_rec709(float* rgb, std::size_t count) const
+{
+    if (m_converts)
+        multiply(m_from_rec709, rgb, count);
+}
+
+bool Colour::to_scene_linear(float* rgb, std::size_t count) const
+{
+    try {
+        Colour working;
+        ColourFinder { working, environment_config() }.use_scene_linear();
+        decode(rgb, count);
+        if (m_to_rec709 != working.m_to_rec709) {
+            to_rec709(rgb, count);
+            working.from_rec709(rgb, count);
+        }
+        return true;
+    } catch (const OCIO::Exception&) {
+        return false;  // a configuration that cannot be read has been complained of
+    }
+}
+
+void Colour::declare_linear(OIIO::ImageSpec& spec) const
+{
+    declare_space(spec, m_linear_name);
+    if (m_chromaticities.size() == 8)
+        spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), m_chromaticities.data());
 }
 
 void log2_in_place(float* values, std::size_t count)

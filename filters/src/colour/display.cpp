@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include <pimg/colour.h>
 #include <pimg/detail/format.h>
 #include <pimg/detail/parallel.h>
 #include <pimg/threads.h>
@@ -16,29 +17,42 @@ using OIIO::ImageBuf;
 
 namespace {
 
-/// A row of pixels. Colours are stored multiplied by alpha; the curve belongs on the colours themselves.
-void encode_row(const OIIO::ImageSpec& spec, float* row)
-{
-    const int colours = std::min(spec.nchannels, 3);  // OpenImageIO's rule for colour operations
-    if (spec.nchannels == colours && spec.alpha_channel < 0 && spec.z_channel < 0) {
-        srgb_in_place(row, std::size_t(spec.width) * std::size_t(colours));
-        return;
+/// Colours are stored multiplied by alpha; the curve belongs on the colours themselves.
+class Encoder {
+public:
+    /// `colour` tells channels and, of linear samples, primaries.
+    Encoder(const OIIO::ImageSpec& spec, const Colour& colour) : m_spec(spec), m_colour(colour) { }
+
+    void encode(float* row) const
+    {
+        std::vector<float> rgb(3 * std::size_t(m_spec.width));
+        for_colours(row, [&](int x, int c, float& sample, float alpha) {
+            const float straight = sample / alpha;
+            for (int i = c; i < (m_colour.count() < 3 ? 3 : c + 1); ++i)
+                rgb[std::size_t(3 * x + i)] = straight;
+        });
+        if (m_colour.count() == 3 && !m_colour.encoded())
+            m_colour.to_rec709(rgb.data(), std::size_t(m_spec.width));
+        srgb_in_place(rgb.data(), rgb.size());
+        for_colours(row,
+                    [&](int x, int c, float& sample, float alpha) { sample = rgb[std::size_t(3 * x + c)] * alpha; });
     }
-    std::vector<float> values(std::size_t(spec.width));
-    const auto scale = [&](int x) {
-        const float a = spec.alpha_channel >= 0 ? row[x * spec.nchannels + spec.alpha_channel] : 1.0f;
-        return a > 0.0f ? a : 1.0f;
-    };
-    for (int c = 0; c < colours; ++c) {
-        if (c == spec.alpha_channel || c == spec.z_channel)
-            continue;
-        for (int x = 0; x < spec.width; ++x)
-            values[std::size_t(x)] = row[x * spec.nchannels + c] / scale(x);
-        srgb_in_place(values.data(), values.size());
-        for (int x = 0; x < spec.width; ++x)
-            row[x * spec.nchannels + c] = values[std::size_t(x)] * scale(x);
+
+private:
+    /// Calls body(x, which colour, sample, alpha or 1).
+    template<class Body>
+    void for_colours(float* row, Body&& body) const
+    {
+        for (int x = 0; x < m_spec.width; ++x, row += m_spec.nchannels) {
+            const float a = m_spec.alpha_channel >= 0 ? row[m_spec.alpha_channel] : 1.0f;
+            for (int c = 0; c < m_colour.count(); ++c)
+                body(x, c, row[m_colour.channel(c)], a > 0.0f ? a : 1.0f);
+        }
     }
-}
+
+    const OIIO::ImageSpec& m_spec;
+    const Colour& m_colour;
+};
 
 }  // namespace
 
@@ -49,11 +63,17 @@ ImageBuf srgb_encoded(const ImageBuf& src, int nthreads)
     if (!copied && !dst.has_error())
         set_error(dst, src.has_error() ? src.geterror(false) : "the picture has no pixels");
     const OIIO::ImageSpec& spec = dst.spec();
+    std::string error;
+    Colour colour;
+    if (copied && !Colour::resolve(spec, "", colour, error)) {
+        set_error(dst, error);
+        return dst;
+    }
     if (copied && dst.localpixels() != nullptr)
         for_rows(pool_loop(nthreads), 0, spec.height * std::max(spec.depth, 1), [&](int row) {
-            encode_row(spec,
-                       static_cast<float*>(dst.localpixels())
-                           + std::size_t(row) * std::size_t(spec.width) * std::size_t(spec.nchannels));
+            Encoder(spec, colour)
+                .encode(static_cast<float*>(dst.localpixels())
+                        + std::size_t(row) * std::size_t(spec.width) * std::size_t(spec.nchannels));
         });
     declare_space(dst.specmod(), "sRGB");
     return dst;
@@ -61,7 +81,8 @@ ImageBuf srgb_encoded(const ImageBuf& src, int nthreads)
 
 void declare_space(OIIO::ImageSpec& spec, const std::string& space)
 {
-    for (const char* stale : { "oiio:Gamma", "Exif:ColorSpace", "ICCProfile", "tiff:ColorSpace", "chromaticities" })
+    for (const char* stale : { "oiio:Gamma", "Exif:ColorSpace", "ICCProfile", "tiff:ColorSpace", "png:gAMA",
+                               "chromaticities", "colorInteropID", "CICP" })
         spec.erase_attribute(stale);
     if (space.empty())
         spec.erase_attribute("oiio:ColorSpace");

@@ -107,7 +107,7 @@ public:
         const std::size_t count = std::size_t(roi.width());
         const Index first = Index(y - spec.y) * Index(spec.width) + Index(roi.xbegin - spec.x);
         if (m_in_place)
-            recolour(m_how, compressed(first), guide(first), count, row);
+            recolour_pixels(first, count, row);
         else
             for (std::size_t x = 0; x < count; x += kBatch)
                 render_batch(first + Index(x), std::min(kBatch, count - x), row + x * std::size_t(spec.nchannels));
@@ -122,8 +122,13 @@ private:
         const HdrCompressOptions& options = compressed.options;
         const float reference = std::log2(compressed.luminance->reference);
         const float compressed_ref = compressed_reference(options, compressed.luminance->reference);
-        Recolour r { colour.weights(),   1.0f / kUnitsPerStop, compressed_ref - reference,
-                     options.saturation, options.fit,          Shoulder(options.fit ? shoulder_white(options) : 1.0f) };
+        const bool converts = options.fit && !colour.has_rec709_primaries();
+        Recolour r { converts ? Colour().weights() : colour.weights(),
+                     1.0f / kUnitsPerStop,
+                     compressed_ref - reference,
+                     options.saturation,
+                     options.fit,
+                     Shoulder(options.fit ? shoulder_white(options) : 1.0f) };
         if (options.fit) {
             r.slope = options.contrast / kUnitsPerStop;
             r.offset = options.contrast * (compressed_ref - std::log2(options.key)) + std::log2(kMiddleGrey)
@@ -135,12 +140,22 @@ private:
     const float* compressed(Index pixel) const { return &(*m_compressed.samples)[pixel]; }
     const float* guide(Index pixel) const { return &m_compressed.luminance->guide.samples[pixel]; }
 
+    /// Results for displays are made in Rec. 709, so that they do not depend on the primaries a scene is stored in.
+    void recolour_pixels(Index first, std::size_t count, float* rgb) const
+    {
+        if (m_compressed.options.fit)
+            m_data.colour.to_rec709(rgb, count);
+        recolour(m_how, compressed(first), guide(first), count, rgb);
+        if (m_compressed.options.fit)
+            m_data.colour.from_rec709(rgb, count);
+    }
+
     /// Pixels whose colour is not three samples in a row, as displays want them, or not linear.
     void render_batch(Index first, std::size_t count, float* pixels) const
     {
         float rgb[3 * kBatch];
         linear_pixels(m_data.source, m_data.colour, first, count, rgb);
-        recolour(m_how, compressed(first), guide(first), count, rgb);
+        recolour_pixels(first, count, rgb);
         for (int c = 0; c < m_data.colour.count(); ++c) {
             float* to = pixels + m_data.colour.channel(c);
             for (std::size_t i = 0; i < count; ++i)
@@ -155,9 +170,12 @@ private:
             float* pixel = row + std::size_t(s.pixel - first) * std::size_t(m_data.source.nchannels());
             if (!m_compressed.options.fit)
                 pixel[s.channel] = s.value;
-            else if (s.value > 0.0f)
+            else if (s.value > 0.0f) {
+                float white[3] = { 1.0f, 1.0f, 1.0f };
+                m_data.colour.from_rec709(white, 1);
                 for (int c = 0; c < m_data.colour.count(); ++c)
-                    pixel[m_data.colour.channel(c)] = 1.0f;
+                    pixel[m_data.colour.channel(c)] = white[c];
+            }
         });
     }
 
@@ -166,17 +184,6 @@ private:
     Recolour m_how;
     bool m_in_place;  ///< a row of the picture is a row of linear RGB
 };
-
-/// Metadata of what is now linear light.
-void declare_linear(ImageBuf& dst, const Colour& colour)
-{
-    OIIO::ImageSpec& spec = dst.specmod();
-    if (!colour.encoded() && spec.find_attribute("oiio:ColorSpace") != nullptr)
-        return;
-    spec.attribute("oiio:ColorSpace", colour.linear_name());
-    for (const char* stale : { "oiio:Gamma", "ICCProfile", "Exif:ColorSpace", "tiff:ColorSpace", "png:gAMA" })
-        spec.erase_attribute(stale);
-}
 
 }  // namespace
 
@@ -235,7 +242,7 @@ bool on_hierarchy::hdr_compress(ImageBuf& dst, const ProgressiveImage& src, cons
         }
         const Renderer renderer(data, compressed);
         write_rows(dst, data, roi, parallel, [&](int y, float* row) { renderer.render(y, roi, row); });
-        declare_linear(dst, data.colour);
+        data.colour.declare_linear(dst.specmod());
         return true;
     });
 }

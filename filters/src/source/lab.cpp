@@ -22,8 +22,9 @@ float lightness(float t)
     return t > 0.0f ? (kKappa * t + 16.0f) / 116.0f : 16.0f / 116.0f;
 }
 
-/// X and Z of linear RGB over those of white: Rec. 709 primaries, D65 (IEC 61966-2-1), rows made to add up to one.
+/// X, Y and Z of linear RGB over those of white: Rec. 709 primaries, D65 (IEC 61966-2-1), rows made to add up to one.
 constexpr float kX[3] = { 0.433910f, 0.376220f, 0.189870f };
+constexpr float kY[3] = { 0.2126f, 0.7152f, 0.0722f };
 constexpr float kZ[3] = { 0.017756f, 0.109469f, 0.872775f };
 
 float dot(const float* w, const float* rgb)
@@ -51,6 +52,7 @@ std::vector<std::vector<float>> lab_channels(const OIIO::ImageBuf& picture, cons
         linear_pixels(picture, colour, Index(first), width, &rgb[3 * first]);
         for (std::size_t p = first; p < first + width; ++p)
             luminance[p] = colour.luminance(&rgb[3 * p]);
+        colour.to_rec709(&rgb[3 * first], width);
     });
     const float scale = colour.encoded() ? 1.0f : exposure(luminance);
     std::vector<std::vector<float>> lab(std::size_t(colour.count()), std::vector<float>(pixels));
@@ -64,7 +66,7 @@ std::vector<std::vector<float>> lab_channels(const OIIO::ImageBuf& picture, cons
                     lab[c][p] = 116.0f * lightness(light[c]) - 16.0f;
                 continue;
             }
-            const float fy = lightness(dot(colour.weights().data(), light));
+            const float fy = lightness(dot(kY, light));
             lab[0][p] = 116.0f * fy - 16.0f;
             lab[1][p] = 500.0f * (lightness(dot(kX, light)) - fy);
             lab[2][p] = 200.0f * (fy - lightness(dot(kZ, light)));
