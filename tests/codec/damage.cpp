@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Damaged files: every truncation of six small ones, every single bit flipped, random damage with the checksums off.
-// Nothing to check but that each ends in an error or a picture: meant to be run with AddressSanitizer and
-// UndefinedBehaviorSanitizer, and within a time limit. Usage: codec_damage [rounds of random damage, default 2000]
+// Each must end in an error or a picture, and a hierarchy that is read must be a whole one of that picture; a whole file
+// must give both. Meant to be run with AddressSanitizer and UndefinedBehaviorSanitizer, and within a time limit.
+// Usage: codec_damage [rounds of random damage, default 2000]
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
@@ -17,8 +20,23 @@ using namespace pimg;
 using namespace pimg_test;
 
 struct Outcome {
-    long pictures = 0, errors = 0, silent = 0;
+    long pictures = 0, errors = 0, hierarchies = 0;
+    long silent = 0;  ///< wrong samples, or a hierarchy that is none of the picture, without an error
 };
+
+/// Whether a hierarchy and the bands of a constant channel on it are whole: every split has its stencil and its detail,
+/// the mesh can be refined to the finest level, and synthesis gives the constant back.
+bool is_whole(const Hierarchy& h, const std::vector<Bands>& bands, const PictureDesc& desc, float constant)
+{
+    Mesh mesh;
+    if (h.width != int(desc.data.width) || h.height != int(desc.data.height) || bands.size() != 1
+        || h.stencils.size() != h.splits.size() || bands[0].details.size() != h.splits.size()
+        || bands[0].base.size() != h.base_points.size() || !refine(h, h.levels(), mesh))
+        return false;
+    std::vector<float> samples(h.mesh_pixels());
+    synthesise(h, bands[0], samples.data());
+    return std::all_of(samples.begin(), samples.end(), [=](float v) { return std::fabs(v - constant) < 1e-4f; });
+}
 
 /// Reads all there is to read; `original` are the right pixels.
 void try_file(const std::uint8_t* data, std::size_t size, bool check_crc, const Picture& original, Outcome& outcome)
@@ -44,7 +62,10 @@ void try_file(const std::uint8_t* data, std::size_t size, bool check_crc, const 
         const std::size_t n =
             std::size_t(std::max(2u, decoder.desc().data.width)) * std::max(2u, decoder.desc().data.height);
         const std::vector<float> guide(n, 1.0f);
-        decoder.read_hierarchy(interleaved(decoder.desc(), (const void*)pixels.data()), { guide.data() }, h, bands);
+        const Status read =
+            decoder.read_hierarchy(interleaved(decoder.desc(), (const void*)pixels.data()), { guide.data() }, h, bands);
+        outcome.hierarchies += read.ok();
+        outcome.silent += read.ok() && !is_whole(h, bands, decoder.desc(), 1.0f);
     }
     ++(status ? outcome.pictures : outcome.errors);
     // A whole file whose samples are wrong without a word is the one thing that must not be.
@@ -74,6 +95,7 @@ Hierarchy hierarchy_of_chosen(const Picture& picture)
 int main(int argc, char** argv)
 {
     const long rounds = argc > 1 ? std::atol(argv[1]) : 2000;
+    long hierarchies = 0;
     std::vector<std::vector<std::uint8_t>> files;
     std::vector<Picture> pictures = conformance_pictures();
     pictures.push_back(pictures[2]);  // once more, with a hierarchy of chosen pixels
@@ -85,6 +107,7 @@ int main(int argc, char** argv)
             options.profile = Profile::full;
             options.hierarchy = &chosen;
         }
+        hierarchies += options.profile == Profile::full;
         options.vertices = 0.1f;
         options.tile = 32;
         files.emplace_back();
@@ -93,7 +116,9 @@ int main(int argc, char** argv)
             return 1;
         }
     }
-    Outcome cut, flipped, random;
+    Outcome whole, cut, flipped, random;
+    for (std::size_t i = 0; i < files.size(); ++i)
+        try_file(files[i].data(), files[i].size(), true, pictures[i], whole);
     for (std::size_t i = 0; i < files.size(); ++i)
         for (std::size_t n = 0; n <= files[i].size(); ++n)
             try_file(files[i].data(), n, true, pictures[i], cut);
@@ -110,9 +135,11 @@ int main(int argc, char** argv)
             file[noise(seed) % file.size()] = std::uint8_t(noise(seed) & 1 ? noise(seed) : 1u << (noise(seed) % 8));
         try_file(file.data(), file.size(), false, pictures[i], random);
     }
-    for (const auto& [name, o] : { std::pair<const char*, Outcome>("truncated", cut),
+    for (const auto& [name, o] : { std::pair<const char*, Outcome>("whole", whole),
+                                   { "truncated", cut },
                                    { "one bit flipped", flipped },
                                    { "random, checksums off", random } })
-        std::printf("%-24s %6ld pictures %6ld errors %ld silent\n", name, o.pictures, o.errors, o.silent);
-    return cut.silent + flipped.silent > 0;
+        std::printf("%-24s %6ld pictures %6ld errors %6ld hierarchies %ld silent\n", name, o.pictures, o.errors,
+                    o.hierarchies, o.silent);
+    return whole.errors + whole.silent + cut.silent + flipped.silent > 0 || whole.hierarchies != hierarchies;
 }

@@ -137,6 +137,56 @@ TEST(HdrCompress, Equation2)
     EXPECT_GT(range(b), range(c));
 }
 
+/// Eq. (2) at several beta, computed here in double precision from the bands: with coherence = 0 each detail d becomes
+/// h(d) d with h(d) = s0 + (1 - s0) (1 - |d| / dmax)^beta, and s0 d from dmax on; the base is scaled by s0.
+TEST(HdrCompress, Equation2AtSeveralBeta)
+{
+    const ImageBuf src = hdr_scene(64, 48, OIIO::TypeFloat, 1);
+    BuildOptions build;
+    build.guide = "log";
+    ProgressiveImage image;
+    ASSERT_TRUE(image.build(src, build)) << image.error();
+    const Hierarchy& hierarchy = image.hierarchy();
+    const Bands& bands = image.guide_bands()[0];
+    constexpr double kUnits = 12.75;  // guide units to a stop: progressive_image.h
+    // The guide is log2(luminance / reference), reference a power of two.
+    std::vector<float> guide(hierarchy.mesh_pixels()), expected(guide.size());
+    synthesise(hierarchy, bands, guide.data());
+    const std::vector<float> light = pixels(src);
+    const double reference = std::round(std::log2(double(light[0])) - double(guide[0]) / kUnits);
+
+    HdrCompressOptions options;
+    options.coherence = 0.0f;
+    options.fit = false;
+    for (const float s0 : { 0.2f, 0.6f })
+        for (const float dmax : { 0.5f, 4.0f })
+            for (const float beta : { 0.5f, 1.0f, 3.0f, 12.0f }) {
+                options.s0 = s0;
+                options.dmax = dmax;
+                options.beta = beta;
+                const auto h = [&](float detail) {
+                    const double rest = 1.0 - std::fabs(double(detail)) / (double(dmax) * kUnits);
+                    const double gain = rest > 0.0 ? std::pow(rest, double(beta)) : 0.0;
+                    return double(s0) + (1.0 - double(s0)) * gain;
+                };
+                Bands compressed_bands = bands;
+                for (float& v : compressed_bands.base)
+                    v *= s0;
+                for (Detail& d : compressed_bands.details)
+                    d = { float(h(d.t) * double(d.t)), float(h(d.u) * double(d.u)) };
+                for (float& v : compressed_bands.residual)
+                    v = float(h(v) * double(v));
+                synthesise(hierarchy, compressed_bands, expected.data());
+                ImageBuf dst;
+                EXPECT_FILTER(dst, ImageBufAlgo::hdr_compress(dst, image, options));
+                const std::vector<float> result = pixels(dst);
+                for (std::size_t i = 0; i < result.size(); ++i)
+                    ASSERT_NEAR(std::log2(double(result[i])), double(expected[i]) / kUnits + double(s0) * reference,
+                                2e-3)
+                        << "s0 " << s0 << ", dmax " << dmax << ", beta " << beta << ", pixel " << i;
+            }
+}
+
 TEST(HdrCompress, HueIsKept)
 {
     const ImageBuf src = hdr_scene();

@@ -218,6 +218,33 @@ TEST(painting, takes_an_8_bit_file_read_as_float_for_what_it_is)
     }
 }
 
+/// Any part of the picture, by any number of threads, has the same pixels as the whole.
+TEST(painting, is_the_same_at_any_thread_count_and_in_any_region)
+{
+    const ImageBuf src = picture(150, 130);
+    ROI part = src.roi();
+    part.xbegin = 31, part.xend = 118;
+    part.ybegin = 17, part.yend = 129;
+    const auto check = [&](const char* name, auto&& filter) {
+        const ImageBuf whole = filter(ROI(), 1);
+        ASSERT_FALSE(whole.has_error()) << name << ": " << whole.geterror();
+        for (const int threads : { 2, 3, 8 })
+            EXPECT_TRUE(same_bits(whole, filter(ROI(), threads))) << name << ", " << threads << " threads";
+        const ImageBuf window = filter(part, 3);
+        EXPECT_EQ(window.roi().npixels(), part.npixels()) << name;
+        EXPECT_TRUE(same_bits(OIIO::ImageBufAlgo::cut(whole, part), OIIO::ImageBufAlgo::cut(window, part))) << name;
+    };
+    pimg::PaintOptions paint;
+    paint.impasto = 0.5f;
+    pimg::MosaicOptions mosaic;
+    mosaic.tiles = 300;
+    pimg::InkOptions ink;
+    ink.width = 2;
+    check("paint", [&](ROI roi, int threads) { return iba::paint(src, paint, roi, threads); });
+    check("mosaic", [&](ROI roi, int threads) { return iba::mosaic(src, mosaic, roi, threads); });
+    check("ink", [&](ROI roi, int threads) { return iba::ink(src, ink, roi, threads); });
+}
+
 TEST(mosaic, one_tile_colour_between_joints)
 {
     const ImageBuf src = picture(120, 90);
