@@ -38,6 +38,7 @@ private:
     Bytes write_tile(std::uint32_t column, std::uint32_t row, const MeshLayerChunks& chunks,
                      const TriangleGrid& grid) const;
     void make_tiles(const MeshLayerChunks& chunks, std::vector<Bytes>& tiles) const;
+    void write_front(const MeshLayerChunks& chunks, Bytes& file, EncodeStats& stats) const;
 
     const PictureDesc& m_desc;
     const std::vector<ConstPlane>& m_samples;
@@ -244,6 +245,30 @@ void Encoder::make_tiles(const MeshLayerChunks& chunks, std::vector<Bytes>& tile
     });
 }
 
+/// Everything before the tiles: the header chunks and the mesh layer.
+void Encoder::write_front(const MeshLayerChunks& chunks, Bytes& file, EncodeStats& stats) const
+{
+    FileHead head;
+    head.profile = std::uint8_t(m_options.profile);
+    head.transform = std::uint8_t(m_transform);
+    head.tile = std::uint16_t(m_options.tile);
+    head.channels = std::uint32_t(m_desc.channels.size());
+    head.vertices = chunks.layer.mesh.size();
+    head.hash = m_options.hash ? hash_samples(m_desc, m_samples) : 0;
+    stats.mesh_vertices = head.vertices;
+    put_bytes(file, kSignature, sizeof kSignature);
+    put_chunk(file, "HEAD", kCritical, write_head(head, m_desc));
+    put_chunk(file, "CHAN", kCritical, write_channels(m_desc));
+    if (!m_desc.attributes.empty())
+        put_chunk(file, "META", kSafeToCopy, write_attributes(m_desc));
+    put_chunk(file, "MESH", kCritical, chunks.base);
+    stats.mesh_bytes = chunks.base.size();
+    for (const Bytes& batch : chunks.batches) {
+        put_chunk(file, "BATC", kCritical, batch);
+        stats.mesh_bytes += batch.size();
+    }
+}
+
 Status Encoder::run(Bytes& file, EncodeStats& stats)
 {
     const auto stopped = [] {
@@ -273,24 +298,7 @@ Status Encoder::run(Bytes& file, EncodeStats& stats)
     if (!progress(0.98f))
         return stopped();
 
-    FileHead head;
-    head.profile = std::uint8_t(m_options.profile);
-    head.transform = std::uint8_t(m_transform);
-    head.tile = std::uint16_t(m_options.tile);
-    head.channels = std::uint32_t(m_desc.channels.size());
-    head.vertices = chunks.layer.mesh.size();
-    head.hash = m_options.hash ? hash_samples(m_desc, m_samples) : 0;
-    put_bytes(file, kSignature, sizeof kSignature);
-    put_chunk(file, "HEAD", kCritical, write_head(head, m_desc));
-    put_chunk(file, "CHAN", kCritical, write_channels(m_desc));
-    if (!m_desc.attributes.empty())
-        put_chunk(file, "META", kSafeToCopy, write_attributes(m_desc));
-    put_chunk(file, "MESH", kCritical, chunks.base);
-    stats.mesh_bytes = chunks.base.size();
-    for (const Bytes& batch : chunks.batches) {
-        put_chunk(file, "BATC", kCritical, batch);
-        stats.mesh_bytes += batch.size();
-    }
+    write_front(chunks, file, stats);
     for (Bytes& tile : tiles) {
         put_chunk(file, "RAST", kCritical, tile);
         stats.raster_bytes += tile.size();
@@ -301,7 +309,6 @@ Status Encoder::run(Bytes& file, EncodeStats& stats)
         stats.hierarchy_bytes += chunk.size();
     }
     put_chunk(file, "DONE", kCritical, {});
-    stats.mesh_vertices = head.vertices;
     return progress(1.0f) ? Status() : stopped();
 }
 

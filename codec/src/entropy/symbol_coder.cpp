@@ -163,6 +163,23 @@ private:
     Bytes m_out;
 };
 
+/// The stream: three lengths, tables, the two states, words from the last to the first, extra bits.
+Bytes joined(const Bytes& tables, const std::vector<std::uint16_t>& words, const std::uint32_t (&state)[2],
+             const Bytes& raw)
+{
+    Bytes out;
+    put_varint(out, tables.size());
+    put_varint(out, words.size());
+    put_varint(out, raw.size());
+    put_bytes(out, tables.data(), tables.size());
+    put_u32(out, state[0]);
+    put_u32(out, state[1]);
+    for (std::size_t i = words.size(); i-- > 0;)
+        put_u16(out, words[i]);
+    put_bytes(out, raw.data(), raw.size());
+    return out;
+}
+
 }  // namespace
 
 Bytes SymbolWriter::finish()
@@ -204,19 +221,8 @@ Bytes SymbolWriter::finish()
         x = x / f * kProbabilities + x % f + starts[i][token];
     }
 
-    Bytes out;
-    const Bytes table_bytes = write_tables(contexts, tables), raw_bytes = raw.finish();
-    put_varint(out, table_bytes.size());
-    put_varint(out, words.size());
-    put_varint(out, raw_bytes.size());
-    put_bytes(out, table_bytes.data(), table_bytes.size());
-    put_u32(out, state[0]);
-    put_u32(out, state[1]);
-    for (std::size_t i = words.size(); i-- > 0;)
-        put_u16(out, words[i]);
-    put_bytes(out, raw_bytes.data(), raw_bytes.size());
     m_symbols.clear();
-    return out;
+    return joined(write_tables(contexts, tables), words, state, raw.finish());
 }
 
 bool SymbolReader::open(ByteReader& in)

@@ -151,6 +151,7 @@ private:
     bool read_batch(ByteReader& heads);
     bool read_collapse(Index t);
     void analyse_collapse(Index t, Index u);
+    void take_base();
     Status finish(Hierarchy& h, std::vector<Bands>& bands);
 
     Hierarchy m_h;
@@ -338,6 +339,21 @@ Status SequenceReader::read_chunk(ByteSpan chunk, const std::vector<std::int32_t
     return whole ? Status() : bad();
 }
 
+/// What is left of the mesh is the base.
+void SequenceReader::take_base()
+{
+    const Index base = m_mesh.size();
+    for (Index v = 0; v < base; ++v) {
+        m_h.base_points.push_back(m_mesh.vertices[v].at);
+        const int degree = m_mesh.vertices[v].degree;
+        for (int j = 0; j < degree; ++j) {
+            const Index a = m_mesh.rings[v].v[std::size_t(j)], b = m_mesh.rings[v].v[std::size_t((j + 1) % degree)];
+            if (a != kGhost && b != kGhost && v < a && v < b)
+                m_h.base_triangles.push_back({ v, a, b });
+        }
+    }
+}
+
 /// Numbers the vertices, base first and then by the split that makes each, and turns the sequence around.
 Status SequenceReader::finish(Hierarchy& h, std::vector<Bands>& bands)
 {
@@ -373,15 +389,7 @@ Status SequenceReader::finish(Hierarchy& h, std::vector<Bands>& bands)
         std::reverse(m_bands[c].details.begin(), m_bands[c].details.end());
         m_bands[c].base = std::move(m_values[c]);
     }
-    for (Index v = 0; v < base; ++v) {
-        m_h.base_points.push_back(m_mesh.vertices[v].at);
-        const int degree = m_mesh.vertices[v].degree;
-        for (int j = 0; j < degree; ++j) {
-            const Index a = m_mesh.rings[v].v[std::size_t(j)], b = m_mesh.rings[v].v[std::size_t((j + 1) % degree)];
-            if (a != kGhost && b != kGhost && v < a && v < b)
-                m_h.base_triangles.push_back({ v, a, b });
-        }
-    }
+    take_base();
     const Status status = find_pixels_between(m_h);
     if (!status)
         return status;
