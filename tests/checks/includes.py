@@ -14,7 +14,6 @@ ROOMS = {
     "core/src/simplify": ["core/src/mesh", "core/src/sweep", "core/src/sampling"],
     "core/src/pieces": ["core/src/mesh", "core/src/sweep"],
     "core/src/smoothing": ["core/src/mesh", "core/src/sweep", "core/src/pieces"],
-    "core/src": ["core"],
     "codec/include": ["core"],
     "codec/src/entropy": [],
     "codec/src/raster": ["codec/include", "codec/src/entropy", "core"],
@@ -29,6 +28,7 @@ ROOMS = {
     "filters/src/ops": ["filters/src/base", "filters/src/colour", "filters/src/source", "filters/src/frame", "painting",
                         "core"],
     "filters/src": ["filters", "core"],
+    "umbrella": ["filters", "painting", "codec", "core"],
     "plugin": ["filters", "codec", "core"],
     "tools": ["plugin", "filters", "codec", "core"],
     "python": ["plugin", "filters", "codec", "core"],
@@ -43,8 +43,7 @@ ROOMS = {
 LOWEST = {"core": "core/src/mesh", "codec": "codec/include", "filters": "filters/src/base", "painting": "painting",
           "capi": "capi"}
 HEADERS = {
-    "core/include/pimg/pimg.hpp": "core/src",
-    "filters/include/pimg/pimg.hpp": "filters/src",
+    "filters/include/pimg/pimg.hpp": "umbrella",
     "filters/include/pimg/imagebufalgo.h": "filters/src/ops",
     "filters/include/pimg/detail/filter_forms.h": "filters/src/frame",
 }
@@ -59,7 +58,7 @@ FOREIGN = {
     "codec/src/entropy": ["zstd.h"],
     "painting": [],
     "filters": ["OpenImageIO", "hwy"],
-    "filters/src/colour": ["OpenImageIO", "hwy", "OpenColorIO"],
+    "filters/src/colour": ["OpenImageIO", "hwy", "OpenColorIO", "lcms2.h"],
     "plugin": ["OpenImageIO"],
     "tools": ["OpenImageIO", "boost"],
     "python": ["OpenImageIO", "pybind11", "Python.h"],
