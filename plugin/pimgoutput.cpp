@@ -2,19 +2,15 @@
 // Writes .pimg files. The picture is collected as it comes, encoded with its last scanline or tile, so that the call
 // that completes it reports whatever goes wrong, and appears under its name whole or not at all.
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <exception>
 #include <new>
-
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/strutil.h>
 
+#include <pimg/detail/safe_file.h>
 #include <pimg/progressive_image.h>
 #include <pimg/threads.h>
 
@@ -29,89 +25,6 @@ using OIIO::ImageSpec;
 using OIIO::stride_t;
 using OIIO::TypeDesc;
 namespace Filesystem = OIIO::Filesystem;
-
-/// A file that takes the place of its target when it is complete.
-class NewFile {
-public:
-    /// Creates it beside the target, or opens the target if that is a device or a pipe.
-    bool open(const std::string& target)
-    {
-        struct stat there = {};
-        const bool exists = ::stat(target.c_str(), &there) == 0;
-        m_target = exists ? resolved(target) : target;
-        if (exists && S_ISDIR(there.st_mode))
-            return fail(EISDIR);
-        if (exists && ::access(m_target.c_str(), W_OK) != 0)
-            return fail(errno);
-        if (exists && !S_ISREG(there.st_mode)) {
-            m_fd = ::open(m_target.c_str(), O_WRONLY | O_CLOEXEC);
-            return m_fd >= 0 || fail(errno);
-        }
-        m_name = Filesystem::unique_path(m_target + ".%%%%%%%%.temp");
-        m_fd = ::open(m_name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (m_fd < 0) {
-            const int code = errno;
-            m_name.clear();
-            return fail(code);
-        }
-        if (exists)
-            (void)!::fchmod(m_fd, there.st_mode & 07777);
-        return true;
-    }
-
-    bool write(const std::uint8_t* data, std::size_t size)
-    {
-        while (size > 0) {
-            const ssize_t n = ::write(m_fd, data, std::min(size, std::size_t(1) << 30));
-            if (n < 0 && errno == EINTR)
-                continue;
-            if (n <= 0)
-                return fail(n < 0 ? errno : ENOSPC);
-            data += n;
-            size -= std::size_t(n);
-        }
-        return true;
-    }
-
-    /// On disk, under its name.
-    bool keep()
-    {
-        if (!m_name.empty() && ::fsync(m_fd) != 0)
-            return fail(errno);
-        if (::close(std::exchange(m_fd, -1)) != 0)
-            return fail(errno);
-        if (!m_name.empty() && ::rename(m_name.c_str(), m_target.c_str()) != 0)
-            return fail(errno);
-        m_name.clear();
-        return true;
-    }
-
-    ~NewFile()
-    {
-        if (m_fd >= 0)
-            ::close(m_fd);
-        if (!m_name.empty())
-            ::unlink(m_name.c_str());
-    }
-
-    const std::string& error() const { return m_error; }
-
-private:
-    /// Where a chain of links ends.
-    static std::string resolved(const std::string& name)
-    {
-        const std::unique_ptr<char, decltype(&std::free)> path(::realpath(name.c_str(), nullptr), &std::free);
-        return path ? path.get() : name;
-    }
-    bool fail(int code)
-    {
-        m_error = std::strerror(code);
-        return false;
-    }
-
-    std::string m_target, m_name, m_error;
-    int m_fd = -1;
-};
 
 class PimgOutput final : public OIIO::ImageOutput {
 public:
@@ -255,7 +168,7 @@ bool PimgOutput::open(const std::string& name, const ImageSpec& spec, OpenMode m
         m_dither = m_spec.format == TypeDesc::UINT8 ? unsigned(m_spec.get_int_attribute("oiio:dither")) : 0;
 
         ioproxy_retrieve_from_config(m_spec);
-        NewFile probe;  // that there can be one is known before the work, and nothing is left behind by it
+        SafeFile probe;  // that there can be one is known before the work, and nothing is left behind by it
         if (!ioproxy() && !probe.open(name)) {
             errorfmt("Could not open \"{}\": {}", name, probe.error());
             return false;
@@ -386,7 +299,7 @@ bool PimgOutput::store(const std::vector<std::uint8_t>& bytes)
         errorfmt("pimg: could not write \"{}\": {}", m_name, proxy->error());
         return false;
     }
-    NewFile file;
+    SafeFile file;
     if (file.open(m_name) && file.write(bytes.data(), bytes.size()) && file.keep())
         return true;
     errorfmt("pimg: could not write \"{}\": {}", m_name, file.error());

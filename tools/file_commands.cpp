@@ -105,11 +105,25 @@ bool raw(const Call& call, Program& program, std::string&)
 
 bool frames(const Call& call, Program& settings, std::string& error)
 {
-    const std::string& range = call.words[0];
-    const bool digits = range.find_first_not_of("0123456789-,xy") == range.npos && !range.empty();
-    if (digits && OIIO::Filesystem::enumerate_sequence(range, settings.frames) && !settings.frames.empty())
+    // A shot of an hour has 90 000 frames; numbers have at most seven digits, so that no range fills the memory.
+    constexpr std::size_t kMostFrames = 100000, kMostDigits = 7;
+    const std::string& text = call.words[0];
+    bool fine = text.find_first_not_of("0123456789-,xy") == text.npos;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        const std::size_t end = std::min(text.find_first_not_of("0123456789", at), text.size());
+        fine = fine && end - at <= kMostDigits;
+        at = end;
+    }
+    for (const std::string& range : OIIO::Strutil::splits(text, ",")) {
+        std::vector<int> numbers;
+        fine = fine && OIIO::Filesystem::enumerate_sequence(range, numbers)
+            && numbers.size() + settings.frames.size() <= kMostFrames;
+        if (fine)
+            settings.frames.insert(settings.frames.end(), numbers.begin(), numbers.end());
+    }
+    if (fine && !settings.frames.empty())
         return true;
-    error = format("\"{}\": expected frames such as 1-240, 1-240x2 or 1,5,9-12", range);
+    error = format("\"{}\": expected at most {} frames such as 1-240, 1-240x2 or 1,5,9-12", text, kMostFrames);
     return false;
 }
 

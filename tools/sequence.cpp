@@ -48,6 +48,24 @@ std::size_t printf_pattern(const std::string& text, std::size_t at, std::size_t&
     return end + 1 - at;
 }
 
+/// Whether a name says "1001-1003#", as other programs have it: there the numbers are frames, here they would become
+/// part of the name.
+bool has_range(const std::string& name)
+{
+    for (std::size_t at = name.find_first_of("#@"); at != name.npos; at = name.find_first_of("#@", at + 1)) {
+        const auto digits_before = [&](std::size_t end) {
+            std::size_t begin = end;
+            while (begin > 0 && std::isdigit(static_cast<unsigned char>(name[begin - 1])))
+                --begin;
+            return begin;
+        };
+        const std::size_t last = digits_before(at);
+        if (last < at && last > 1 && name[last - 1] == '-' && digits_before(last - 1) < last - 1)
+            return true;
+    }
+    return false;
+}
+
 /// The frames and views to run: at least one, which has neither if none were asked for.
 std::vector<Frame> frames_of(const Program& settings)
 {
@@ -138,6 +156,11 @@ bool parse_frames(const std::vector<std::string>& arguments, Program& settings, 
     std::vector<std::string> rest;
     if (!take_settings(arguments, settings, rest, error))
         return false;
+    for (const std::string& argument : rest)
+        if (has_range(argument)) {
+            error = format("\"{}\": expected # alone in the name, and the frames as --frames 1-240", argument);
+            return false;
+        }
     for (const Frame& frame : frames_of(settings)) {
         programs.emplace_back();
         if (!parse_one(rest, frame, settings, programs.back(), error)) {

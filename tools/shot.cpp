@@ -12,6 +12,7 @@
 #include <OpenImageIO/strutil.h>
 
 #include <pimg/detail/format.h>
+#include <pimg/detail/safe_file.h>
 
 namespace pimg {
 
@@ -112,13 +113,8 @@ bool Shot::write(const std::string& filename, std::string& error) const
     }
     text += "\n  ]\n}\n";
     // Whole or not at all: other machines may be waiting for it.
-    const std::string temporary = OIIO::Filesystem::unique_path(filename + ".%%%%%%%%.temp");
-    std::ofstream file(temporary);
-    file << text;
-    file.close();
-    if (file && OIIO::Filesystem::rename(temporary, filename, error))
+    if (pimg::write_whole_file(filename, text, error))
         return true;
-    std::remove(temporary.c_str());
     error = format("cannot write \"{}\"{}", filename, error.empty() ? "" : ": " + error);
     return false;
 }

@@ -2,6 +2,7 @@
 """What pimgtool writes: types, sRGB encoding, colour operations, windows, metadata, whole files or none."""
 
 import os
+import subprocess
 import unittest
 
 import numpy as np
@@ -44,6 +45,85 @@ class OutputTest(pictures.ToolTest):
     def assert_codes(self, name, expected):
         """An 8-bit file holds what is expected to one code value."""
         self.assertLessEqual(np.abs(codes(name) - expected).max(), 1, name)
+
+
+class FullDisk(OutputTest):
+    """A limit on the size of files stands in for a disk that is full."""
+
+    FORMATS = ("png", "jpg", "bmp", "tga", "gif", "sgi", "jp2", "exr", "tif", "hdr", "ppm", "webp", "pimg")
+
+    def limited(self, *arguments, blocks=8):
+        """pimgtool with files of at most so many kilobytes; SIGXFSZ is its own business."""
+        return subprocess.run(["bash", "-c", 'ulimit -f %d; exec "$@"' % blocks, "bash", pictures.TOOL, *arguments],
+                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+    def test_leaves_the_old_file_and_nothing_else(self):
+        os.mkdir("small")
+        pictures.write("noise.exr", np.random.default_rng(3).random((120, 160, 3)), "float")
+        for extension in self.FORMATS:
+            name = "small/x." + extension
+            with open(name, "w", encoding="utf-8") as file:
+                file.write("old")
+            result = self.limited("noise.exr", "-o", name)
+            if "no image format" in result.stderr:
+                os.remove(name)
+                continue
+            with self.subTest(extension):
+                self.assertEqual(result.returncode, 1, result.stderr)
+                self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+                with open(name, encoding="utf-8") as file:
+                    self.assertEqual(file.read(), "old")
+                self.assertEqual(os.listdir("small"), ["x." + extension])
+            for left in os.listdir("small"):
+                os.remove(os.path.join("small", left))
+
+    def test_reports_are_whole_or_not_there(self):
+        os.mkdir("small")
+        pictures.write("noise.png", np.random.default_rng(3).random((120, 160, 3)), "uint8")
+        for arguments in (("--segment:regions=900:stats=small/report.csv",), ("--paint:strokes=small/report.svg",),
+                          ("--paint:strokes=small/report.json",)):
+            name = arguments[0].rpartition("=")[2]
+            with open(name, "w", encoding="utf-8") as file:
+                file.write("old")
+            result = self.limited("noise.png", *arguments, "-o", "small/out.null")
+            self.assertEqual(result.returncode, 1, arguments)
+            with open(name, encoding="utf-8") as file:
+                self.assertEqual(file.read(), "old")
+            self.assertEqual(os.listdir("small"), [os.path.basename(name)])
+            os.remove(name)
+
+    @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full")
+    def test_what_is_printed_has_to_arrive(self):
+        for arguments in (("--help",), ("--version",)):
+            with open("/dev/full", "w", encoding="utf-8") as full:
+                result = subprocess.run([pictures.TOOL, *arguments], stdout=full, stderr=subprocess.PIPE, text=True)
+            self.assertEqual(result.returncode, 1, arguments)
+            self.assertIn("No space left", result.stderr)
+
+    def test_little_address_space_is_one_line(self):
+        result = subprocess.run(["bash", "-c", 'ulimit -v 420000; exec "$@"', "bash", pictures.TOOL, "--version"],
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.assertEqual((result.returncode, result.stderr), (1, "pimgtool: error: not enough memory\n"))
+
+
+class Targets(OutputTest):
+    def test_links_modes_and_pipes_are_respected(self):
+        os.mkdir("elsewhere")
+        for extension in ("png", "exr", "jp2", "pimg"):
+            real, link = "elsewhere/real." + extension, "link." + extension
+            self.ok("rgb.png", "-o", real)
+            os.chmod(real, 0o640)
+            os.symlink(real, link)
+            before = os.stat(real).st_ino
+            self.ok("rgb.png", "--level:fraction=0.1", "-o", link)
+            self.assertTrue(os.path.islink(link))
+            self.assertEqual(os.stat(real).st_mode & 0o777, 0o640)
+            self.assertNotEqual(os.stat(real).st_ino, before)
+        os.mkfifo("pipe.png")
+        reader = subprocess.Popen(["cat", "pipe.png"], stdout=subprocess.PIPE)
+        self.ok("rgb.png", "-o", "pipe.png")
+        self.assertEqual(reader.communicate()[0][:4], b"\x89PNG")
+        self.assertTrue(os.path.exists("pipe.png") and not os.path.isfile("pipe.png"))
 
 
 class Types(OutputTest):

@@ -76,6 +76,11 @@ class Sequences(pictures.ToolTest):
         for arguments, says in (
             (("--frames", "1-3", "in.#.exr", "-o", "out.#.exr"), ("frame 3", "in.0003.exr", "no such file")),
             (("--frames", "1-2", "in.#.exr", "-o", "out.exr"), ("out.exr", "#")),
+            (("--frames", "0-9999999999", "in.#.exr", "-o", "out.#.exr"), ("0-9999999999", "at most 100000")),
+            (("--frames", "0-9999999", "in.#.exr", "-o", "out.#.exr"), ("0-9999999", "at most 100000")),
+            (("x" * 5000 + ".exr",), ("xxx...xxx",)),
+            (("in.1-3#.exr", "-o", "out.exr"), ("in.1-3#.exr", "--frames")),
+            (("--frames", "1-3", "in.#.exr", "-o", "b.1-3#.exr"), ("b.1-3#.exr", "--frames")),
             (("--frames", "1-2", "--views", "a,b", "in.#.exr", "-o", "out.#.exr"), ("out.0001.exr", "%V")),
             (("--frames", "one", "in.#.exr", "-o", "out.#.exr"), ("--frames", "one", "1-240")),
             (("--views", ",", "in.0001.exr", "-o", "out.%V.exr"), ("--views", "left,right")),

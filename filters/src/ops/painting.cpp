@@ -9,6 +9,7 @@
 
 #include <pimg/detail/elementary.h>
 #include <pimg/detail/parallel.h>
+#include <pimg/detail/safe_file.h>
 
 namespace pimg {
 
@@ -174,13 +175,10 @@ bool write_strokes(const std::string& filename, const Strokes& strokes, const Sh
     const bool svg = OIIO::Strutil::iends_with(filename, ".svg");
     const std::string text =
         svg ? strokes_to_svg(strokes, colors, opacity, ground) : strokes_to_json(strokes, colors, opacity);
-    OIIO::ofstream file;
-    OIIO::Filesystem::open(file, filename, std::ios::binary);
-    file << text;
-    file.close();
-    if (file.good())
+    std::string why;
+    if (write_whole_file(filename, text, why))
         return true;
-    error = "strokes: cannot write \"" + filename + "\"";
+    error = "strokes: cannot write \"" + filename + "\": " + why;
     return false;
 }
 

@@ -11,6 +11,7 @@
 #include <OpenImageIO/strutil.h>
 
 #include <pimg/detail/format.h>
+#include <pimg/detail/safe_file.h>
 
 namespace pimg {
 
@@ -123,10 +124,9 @@ bool write_region_report(const OIIO::ImageBuf& picture, const std::vector<Index>
         else
             text += (r == 0 ? csv(record, true) : "") + csv(record, false);
     }
-    const std::unique_ptr<FILE, int (*)(FILE*)> file(OIIO::Filesystem::fopen(filename, "wb"), std::fclose);
-    if (file == nullptr || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size()
-        || std::fflush(file.get()) != 0) {
-        error = format("stats={}: cannot be written", filename);
+    std::string why;
+    if (!write_whole_file(filename, text, why)) {
+        error = format("stats={}: cannot be written: {}", filename, why);
         return false;
     }
     return true;

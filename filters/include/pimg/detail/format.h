@@ -25,4 +25,7 @@ inline void set_error(const OIIO::ImageBuf& picture, const std::string& message)
     picture.error(OIIO::string_view(message));
 }
 
+/// A message with the middle of every word over 300 characters left out: what it quotes may be of any length.
+std::string with_words_shortened(const std::string& message);
+
 }  // namespace pimg
