@@ -25,6 +25,12 @@ LONG_FILES = {
     "tests/codec/reader.py": "the independent reader of the format is one file that can be taken away",
 }
 
+# Functions that differ in the last bit from one C library to another, where bytes, meshes and strokes are decided; who uses
+# them nevertheless.
+LIBRARY_FUNCTION = re.compile(r"std::(?:sin|cos|tan|a?sin|acos|atan2?|exp2?|expm1|log(?:2|10|1p)?|pow|cbrt|hypot)\(")
+SAME_BITS = ("core/", "codec/", "painting/")
+LIBRARY_USERS = {"codec/src/entropy/symbol_coder.cpp", "core/src/pieces/regions.cpp", "core/src/smoothing/diffusion.cpp"}
+
 # Folders of one machine; a path into them means nothing elsewhere.
 MACHINE = re.compile(r"(?<![\w.}~-])/(?:home|root|work|Users|mnt)/\w")
 
@@ -131,9 +137,19 @@ def check_paths(tree):
     return findings
 
 
+def check_library_functions(tree):
+    findings = []
+    for path in tree.ending(*CPP):
+        if path.startswith(SAME_BITS) and path not in LIBRARY_USERS:
+            for number, line in enumerate(tree.lines(path), 1):
+                if LIBRARY_FUNCTION.search(line):
+                    findings.append(Finding(path, number, "use pimg/detail/elementary.h: the same bits everywhere"))
+    return findings
+
+
 def check(tree):
     return (check_functions(functions(tree), declarations(tree)) + check_files(tree) + check_folders(tree)
-            + check_paths(tree))
+            + check_paths(tree) + check_library_functions(tree))
 
 
 def summary(tree):

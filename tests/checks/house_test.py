@@ -134,6 +134,13 @@ class Counts(InTree):
         self.assertEqual(counts.check(self.tree(core__src__x_cpp="// see docs/home/page and /tmp/x")), [])
 
 
+    def test_functions_that_differ_between_libraries(self):
+        tree = self.tree(painting__src__x_cpp="float f(float x) { return std::pow(x, 2.0f); }",
+                         filters__src__ops__x_cpp="float f(float x) { return std::pow(x, 2.0f); }",
+                         core__src__mesh__x_cpp="float f(float x) { return std::sqrt(x) + elementary::exp(x); }")
+        self.assert_finds(counts.check(tree), "elementary.h")
+
+
 class Mirror(InTree):
     def test_a_source_has_a_test_or_is_listed(self):
         tree = self.tree(core__src__mesh__mesh_cpp="", tests__core__mesh__other_cpp="", plugin__x_cpp="")
