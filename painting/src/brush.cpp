@@ -10,6 +10,11 @@ namespace pimg {
 
 namespace {
 
+// The masks are drawn, not taken from anywhere: all numbers here and in the four functions below, which say where hairs
+// start, how ragged ends are and how high the paint stands, were chosen by eye. Lengths along a stroke are columns of
+// the finest mask, those across shares of half its width; heights and alphas are 0 to 1.
+
+/// Masks of one brush; more: strokes repeat less often, and a brush takes longer to make.
 constexpr int kVariants = 8;
 constexpr float kCap = float(Brush::kRows) / 2;  ///< columns from the tip to where a round end is full
 
@@ -100,7 +105,7 @@ Brush Brush::named(const std::string& name)
     struct Kind {
         const char* name;
         Paint (*paint)(Place, std::uint32_t);
-        float grain;
+        float grain;  ///< by eye; without any, frames of a film change less but paint spills more (internals.md)
         int variants;
     };
     static constexpr Kind kKinds[] = { { "round", round_paint, 0.0f, 1 },

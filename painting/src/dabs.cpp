@@ -12,8 +12,14 @@ namespace {
 
 constexpr float kPixel = 1.0f / float(kSubpixels);
 
-/// Pieces overlap a little so that strokes, which are no polygons, leave no gaps.
+/// Area of a dab over that of its piece: strokes are no polygons and must overlap to leave no gaps. Chosen by eye.
+/// More gives wider strokes, fewer gaps to be filled from below, and more paint over the neighbours.
 constexpr float kOverlap = 1.35f;
+
+/// Share of the least width's square below which the area of a piece is certainly too small: a dab as wide as the
+/// square root of its area, the widest there is, would still be narrower than the least width. By that argument 1
+/// would do; the rest is a margin.
+constexpr float kSmallestArea = 0.7f;
 
 struct Polygon {
     Vec2 points[kMaxDegree + 3];
@@ -69,7 +75,7 @@ public:
         : m_field(field),
           m_options(options),
           m_dabs(dabs),
-          m_smallest(0.7f * options.min * options.min * (options.detail ? 1.0f / 16 : 1.0f) / kOverlap)
+          m_smallest(kSmallestArea * options.min * options.min * (options.detail ? 1.0f / 16 : 1.0f) / kOverlap)
     {
     }
 

@@ -11,13 +11,25 @@ namespace pimg {
 
 namespace {
 
-constexpr float kLightest = 0.04f;    ///< darkness that is left white
-constexpr float kOneWay = 0.5f;       ///< darkness up to which one direction does
-constexpr float kDarkest = 0.9f;      ///< of one direction: lines just leave a little paper
-constexpr float kFree = 0.35f;        ///< share of the tone claimed where a line may still start
-constexpr float kNear = 0.6f;         ///< ... and where one ends that was started elsewhere
-constexpr float kToneChange = 0.30f;  ///< darkness may change so much along a line
-constexpr double kTone = 1.6;         ///< exponent of the darkness: pens leave light tones to the paper
+// The paper shows pen and ink (section 7) but names no numbers. Those below are chosen by eye; after each stands what
+// more of it does. Darkness is 0 (paper) to 1 (black).
+constexpr float kLightest = 0.04f;     ///< darkness that is left white; more: larger white areas
+constexpr float kOneWay = 0.5f;        ///< darkness up to which one direction does; more: crossing starts later
+constexpr float kDarkest = 0.9f;       ///< most of one direction, which leaves a little paper; more: solid black
+constexpr float kBlackest = 0.97f;     ///< most of two crossing directions; more: solid black
+constexpr float kLeftToCross = 0.25f;  ///< least darkness the second direction adds where both are; more: even crossing
+constexpr float kFree = 0.35f;         ///< share of the tone claimed where a line may still start; more: denser lines
+constexpr float kNear = 0.6f;          ///< ... and where a line that started elsewhere ends; more: longer lines
+constexpr float kToneChange = 0.30f;   ///< change of darkness along a line at which it ends; more: lines cross shadows
+constexpr double kTone = 1.6;          ///< exponent of the darkness; more: light tones are left to the paper
+constexpr float kLeastEdge = 0.04f;    ///< slope, in darkness per pixel, that is no edge yet; more: fewer outlines
+constexpr float kOutline = 4.0f;       ///< darkness an edge adds per unit of slope above it; more: heavier outlines
+constexpr float kStraight = 0.7f;      ///< cosine of the sharpest turn between two points of a line, 45 degrees
+constexpr float kPerPiece = 2.0f;      ///< length of a line in lengths of its piece; more: longer lines
+constexpr float kShortest = 10.0f, kLongest = 48.0f;  ///< length of a line in pixels before the option `length`
+constexpr float kFinest = 1.0f, kCoarsest = 24.0f;    ///< widths in pixels of the pieces at which lines start
+
+/// Points of a line to one side of its start at most; lines too long for steps of 1.5 pixels have longer steps.
 constexpr int kMostSteps = 24;
 
 struct Tones {
@@ -69,7 +81,7 @@ int Hatch::walk(Vec2 start, float sign, float reach, Vec2* points) const
     for (float done = step; done <= reach && count < kMostSteps; done += step) {
         Vec2 next = direction({ p.x + 0.5f * step * d.x, p.y + 0.5f * step * d.y });
         const float cosine = next.x * d.x + next.y * d.y;
-        if (std::fabs(cosine) < 0.7f)
+        if (std::fabs(cosine) < kStraight)
             break;
         d = cosine < 0.0f ? Vec2 { -next.x, -next.y } : next;
         p = { p.x + step * d.x, p.y + step * d.y };
@@ -112,7 +124,7 @@ void Hatch::draw(const Dab& dab, Strokes& lines)
     const std::size_t at = m_tones.at(dab.centre);
     if (m_tones.wanted[at] < kLightest || m_tones.claimed[at] > kFree * m_tones.wanted[at])
         return;
-    const float reach = 0.5f * m_options.length * std::clamp(2.0f * dab.length, 10.0f, 48.0f);
+    const float reach = 0.5f * m_options.length * std::clamp(kPerPiece * dab.length, kShortest, kLongest);
     Vec2 back[kMostSteps], forth[kMostSteps];
     const int before = walk(dab.centre, -1.0f, reach, back), after = walk(dab.centre, 1.0f, reach, forth);
     if (before + after < 2)
@@ -146,10 +158,11 @@ std::vector<float> with_outlines(const float* darkness, int width, int height, c
         for (int x = 0; x < width; ++x) {
             const float gx = 0.5f * (clean(x + 1, y) - clean(x - 1, y)),
                         gy = 0.5f * (clean(x, y + 1) - clean(x, y - 1));
-            const float edge = std::max(0.0f, std::sqrt(gx * gx + gy * gy) - 0.04f);
-            wanted[std::size_t(y) * std::size_t(width) + std::size_t(x)] = std::min(
-                1.0f,
-                options.density * float(elementary::power(double(clean(x, y)), kTone)) + 4.0f * options.outline * edge);
+            const float edge = std::max(0.0f, std::sqrt(gx * gx + gy * gy) - kLeastEdge);
+            wanted[std::size_t(y) * std::size_t(width) + std::size_t(x)] =
+                std::min(1.0f,
+                         options.density * float(elementary::power(double(clean(x, y)), kTone))
+                             + kOutline * options.outline * edge);
         }
     return wanted;
 }
@@ -164,8 +177,8 @@ Status plan_ink(const Hierarchy& hierarchy, const float* darkness, const Directi
     lines.width = width;
     lines.height = height;
     DabOptions range;
-    range.min = 1.0f;
-    range.max = 24.0f;
+    range.min = kFinest;
+    range.max = kCoarsest;
     std::vector<Dab> dabs;
     const Status status = collect_dabs(hierarchy, field, range, dabs);
     if (!status)
@@ -177,9 +190,9 @@ Status plan_ink(const Hierarchy& hierarchy, const float* darkness, const Directi
     Tones across = along;
     for (std::size_t i = 0; i < along.wanted.size(); ++i) {
         // Two layers leave (1 - a) (1 - b) of the paper.
-        const float all = std::min(along.wanted[i], options.cross ? 0.97f : kDarkest);
-        along.wanted[i] = options.cross ? std::min(all, std::max(kOneWay, all - 0.25f)) : all;
-        across.wanted[i] = std::min(kDarkest, 1.0f - (1.0f - all) / (1.0f - along.wanted[i]));
+        const float total = std::min(along.wanted[i], options.cross ? kBlackest : kDarkest);
+        along.wanted[i] = options.cross ? std::min(total, std::max(kOneWay, total - kLeftToCross)) : total;
+        across.wanted[i] = std::min(kDarkest, 1.0f - (1.0f - total) / (1.0f - along.wanted[i]));
     }
     Hatch first(field, options, std::move(along), false), second(field, options, std::move(across), true);
     for (const Dab& dab : dabs)

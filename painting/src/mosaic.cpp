@@ -13,7 +13,13 @@ namespace pimg {
 
 namespace {
 
-constexpr int kStrip = 64;
+constexpr int kStrip = 64;  ///< rows of a task
+
+/// Largest change of a slope's brightness at relief = 1, as a share of it. Chosen by eye; more: deeper tiles.
+constexpr float kLight = 0.6f;
+
+/// Share of a tile's largest depth that half a joint may take, so that slivers keep two thirds of themselves.
+constexpr float kMostOfTile = 1.0f / 3.0f;
 
 struct Depth {
     float inside, x, y;
@@ -125,7 +131,7 @@ void lay_mosaic(const Tiling& tiling, Index tiles, const MosaicSettings& setting
                 // The slope falls towards the joint; it is lit where it faces the upper left.
                 const float slope = std::clamp(1.0f - depth / settings.bevel, 0.0f, 1.0f);
                 const float facing = 0.7071f * (tiling.away_x[i] + tiling.away_y[i]);
-                shade = mean * (1.0f + 0.6f * settings.relief * slope * facing);
+                shade = mean * (1.0f + kLight * settings.relief * slope * facing);
             }
             const float cover = settings.grout > 0.0f ? std::clamp(depth + 0.5f, 0.0f, 1.0f) : 1.0f;
             samples[i] = grout_colors[c] + cover * (shade - grout_colors[c]);

@@ -14,22 +14,44 @@ namespace pimg {
 
 namespace {
 
+// The paper gives the idea of section 5.2 but no numbers. Where nothing else is said, a number is chosen by eye.
+
+/// Points of a stroke to either side of its middle: at a step of 0.4 widths enough for 19 widths of length.
 constexpr int kMostPoints = 24;
 
-/// A stroke is at least this many widths long, ends included, where nothing stops it, and at most that many.
+/// A stroke is at least this many widths long, ends included, where nothing stops it, and at most that many. More of
+/// the second gives longer, calmer strokes.
 constexpr float kShortest = 2.0f, kLongest = 8.0f;
 
-/// What a cell without paint counts as, in 8-bit units off: more than any shade is worth, less than black for white.
+/// What a cell without paint counts as, in 8-bit units off: more than a shade usually is off, so that bare canvas is
+/// covered first, but less than black is for white, so that a quite wrong stroke is not put there.
 constexpr float kBare = 64.0f;
 
-/// Pixels after which an edge has reached its other side, in the smoothed picture.
+/// Pixels after which an edge has reached its other side in the smoothed picture: the reach of its kernel of five.
 constexpr float kEdgeWidth = 2.0f;
 
 /// The eighth of a full turn, 45 degrees, in radians: the largest turn by jitter_angle.
 constexpr float kEighth = float(elementary::kPi / 4);
 
-/// Distance of places, in widths.
+/// Distance of places, in widths. Measured: at 0.33 and 0.8 as much paint spills on the astronaut and more
+/// on the rocket (docs/internals.md).
 constexpr float kPitch = 0.5f;
+
+/// Largest chance shift of a place in distances of places; more: less of a grid, but more gaps.
+constexpr float kScatter = 0.3f;
+
+/// A stroke keeps its fixed place if the picture is alike there, to this share of `crossing`; else it takes the place
+/// of its piece. Not measured itself, but always the fixed place hardly differs (docs/internals.md).
+constexpr float kAlikePlace = 0.4f;
+
+/// Step along a stroke in widths, and the cosine of the sharpest turn from one step to the next, 45 degrees.
+constexpr float kStep = 0.4f, kStraight = 0.7f;
+
+/// Cell of the sketch in least widths: 2 pixels at the default least width of 3, which halved the time of planning.
+constexpr float kCell = 0.67f;
+
+/// Length, in widths, of a stroke that fills a gap.
+constexpr float kGapLength = 3.0f;
 
 /// A stroke being drawn.
 struct Draft {
@@ -58,7 +80,7 @@ public:
 private:
     void fit_between_edges(Draft& draft, Vec2 along, float min) const;
     void walk(Draft& draft, Vec2 along, float reach, int sign) const;
-    bool is_same(Vec2 p, const Shade& shade) const
+    bool is_same_shade(Vec2 p, const Shade& shade) const
     {
         return m_picture.distance(m_picture.at(p), shade) <= m_options.crossing;
     }
@@ -74,7 +96,7 @@ void Planner::fit_between_edges(Draft& draft, Vec2 along, float min) const
     Vec2& centre = draft.points[kMostPoints];
     const Vec2 across { -along.y, along.x };
     const float half = 0.5f * draft.width, step = std::max(0.75f, 0.125f * draft.width);
-    const auto off = [&](float v) {
+    const auto difference_at = [&](float v) {
         return m_picture.distance(m_picture.between({ centre.x + v * across.x, centre.y + v * across.y }), draft.shade);
     };
     float free[2];
@@ -82,10 +104,10 @@ void Planner::fit_between_edges(Draft& draft, Vec2 along, float min) const
         const float sign = side ? 1.0f : -1.0f;
         float reached = 0.0f, before = 0.0f;
         while (reached < half) {
-            const float next = std::min(reached + step, half), here = off(sign * next);
+            const float next = std::min(reached + step, half), here = difference_at(sign * next);
             if (here > m_options.crossing) {
                 // The edge is where half of the difference between its sides is reached.
-                const float level = std::max(m_options.crossing, 0.5f * off(sign * (next + kEdgeWidth)));
+                const float level = std::max(m_options.crossing, 0.5f * difference_at(sign * (next + kEdgeWidth)));
                 reached += step * std::min(1.0f, (level - before) / std::max(here - before, 1e-3f));
                 break;
             }
@@ -106,7 +128,7 @@ void Planner::fit_between_edges(Draft& draft, Vec2 along, float min) const
 /// Follows the directions from the middle to one end.
 void Planner::walk(Draft& draft, Vec2 along, float reach, int sign) const
 {
-    const float wanted = std::max(1.0f, 0.4f * draft.width);
+    const float wanted = std::max(1.0f, kStep * draft.width);
     const int steps = std::min(kMostPoints, int(std::ceil(reach / wanted)));
     if (steps == 0)
         return;
@@ -121,11 +143,11 @@ void Planner::walk(Draft& draft, Vec2 along, float reach, int sign) const
         }
         if (i == 0)
             turn = d;  // a jittered stroke starts as it was turned
-        else if (cosine < 0.7f)
+        else if (cosine < kStraight)
             break;
         const Vec2 q { p.x + step * turn.x, p.y + step * turn.y };
-        if (!is_same(q, draft.shade) || !is_same({ q.x + tip * turn.x, q.y + tip * turn.y }, draft.shade) || q.x < 0.0f
-            || q.y < 0.0f || q.x > float(m_picture.width() - 1) || q.y > float(m_picture.height() - 1))
+        if (!is_same_shade(q, draft.shade) || !is_same_shade({ q.x + tip * turn.x, q.y + tip * turn.y }, draft.shade)
+            || q.x < 0.0f || q.y < 0.0f || q.x > float(m_picture.width() - 1) || q.y > float(m_picture.height() - 1))
             break;
         p = q;
         d = turn;
@@ -180,17 +202,19 @@ Site site_of(const Dab& dab, Index index, const ShadePicture& picture, const Str
     const int x = int(std::lround(dab.centre.x / pitch)), y = int(std::lround(dab.centre.y / pitch));
     const std::uint32_t chance = scramble(
         std::uint32_t(x) + scramble(std::uint32_t(y) + scramble(std::uint32_t(size) + scramble(options.seed))));
-    const Vec2 place { pitch * (float(x) + 0.3f * signed_unit(scramble(chance + 4))),
-                       pitch * (float(y) + 0.3f * signed_unit(scramble(chance + 5))) };
+    const Vec2 place { pitch * (float(x) + kScatter * signed_unit(scramble(chance + 4))),
+                       pitch * (float(y) + kScatter * signed_unit(scramble(chance + 5))) };
     // Next to an edge the mesh knows the place better.
-    if (picture.distance(picture.at(place), picture.at(dab.centre)) < 0.4f * options.crossing)
+    if (picture.distance(picture.at(place), picture.at(dab.centre)) < kAlikePlace * options.crossing)
         site.centre = place;
     const int bin = std::clamp(int(4.0 * (20.0 - elementary::log2(double(site.width)))), 0, 255);
     site.key = (std::uint64_t(bin) << 32) + chance;
     return site;
 }
 
-std::vector<Site> settle(const std::vector<Dab>& dabs, const ShadePicture& picture, const StrokeOptions& options)
+/// The sites of all dabs in the order of painting.
+std::vector<Site> sites_in_order(const std::vector<Dab>& dabs, const ShadePicture& picture,
+                                 const StrokeOptions& options)
 {
     std::vector<Site> sites;
     sites.reserve(dabs.size());
@@ -218,11 +242,11 @@ Status plan_strokes(const Hierarchy& hierarchy, const Planes& guides, const Dire
     if (!status)
         return status;
     const ShadePicture picture(guides, options.parallel);
-    Sketch sketch(picture, std::max(1, int(0.67f * options.min + 0.5f)));
+    Sketch sketch(picture, std::max(1, int(kCell * options.min + 0.5f)));
     const Planner planner(picture, field, options);
 
     Strokes laid;
-    for (const Site& site : settle(dabs, picture, options)) {
+    for (const Site& site : sites_in_order(dabs, picture, options)) {
         const Draft draft = planner.draft(site.centre, site.width, dabs[site.dab].length, std::uint32_t(site.key));
         const float gain = sketch.gain(draft.begin(), draft.size(), draft.width, draft.shade, kBare);
         if (options.tolerance > 0.0f && gain < options.tolerance)
@@ -239,7 +263,7 @@ Status plan_strokes(const Hierarchy& hierarchy, const Planes& guides, const Dire
     for (Vec2 place : sketch.bare_cells()) {
         if (sketch.is_covered(place))
             continue;
-        const Draft draft = planner.draft(place, width, 3.0f * width, scramble(Index(strokes.strokes.size())));
+        const Draft draft = planner.draft(place, width, kGapLength * width, scramble(Index(strokes.strokes.size())));
         sketch.put_below(draft.begin(), draft.size(), draft.width, draft.shade);
         append(draft, kGhost, 0, strokes);
     }
@@ -256,7 +280,8 @@ std::vector<std::vector<float>> stroke_colors(const Strokes& strokes, const Plan
                                               const ParallelFor& parallel)
 {
     constexpr std::size_t kBlock = 1024;
-    constexpr float kAlike = 16.0f;  // units; nearer colours count as the same paint
+    // Steps of an 8-bit picture; nearer colours count as the same paint. Chosen by eye; more: duller colours.
+    constexpr float kAlike = 16.0f;
     const std::size_t n = strokes.strokes.size();
     std::vector<std::vector<float>> colors(picture.channels.size(), std::vector<float>(n));
     const auto pixel = [&](Vec2 p) {

@@ -13,7 +13,10 @@ namespace pimg {
 
 namespace {
 
-constexpr float kFeaturePixels = 8.0f;    ///< pixels a deviation of `strength` must cover to count as a feature
+/// Pixels a deviation of `strength` must cover to count as a feature. Chosen by eye; more smooths away larger things.
+constexpr float kFeaturePixels = 8.0f;
+
+// The next four are measured: the table of docs/smoothing.md has them beside other values.
 constexpr float kStartShare = 0.85f;      ///< of what the sweep removed, in the picture that diffuses
 constexpr float kContrastShare = 0.7f;    ///< contrast that stops diffusion, as a share of the strength
 constexpr int kSteps = 6;                 ///< of diffusion guided by the features

@@ -12,11 +12,16 @@ namespace pimg {
 
 namespace {
 
-constexpr float kDefaultStrength = 0.03f;  ///< of the range of a picture from an integer format
+/// Defaults of `strength`: of the range of a picture from an integer format, and in stops. Chosen by eye; more smooths
+/// more away.
+constexpr float kDefaultStrength = 0.03f;
 constexpr float kDefaultStops = 0.3f;
+
+/// Unit of the logarithm over the median magnitude: 10 stops below it. Chosen by eye; less keeps the contrast of what is
+/// nearly black, and its noise.
 constexpr float kUnitBelowMiddle = 0x1p-10f;
 constexpr float kLargest = 0x1p100f;  ///< sums and squares of larger samples are scaled down
-constexpr float kSteep = 0x1p12f;     ///< ratio to the unit above which the logarithm alone is exact enough
+constexpr float kSteep = 0x1p12f;     ///< ratio to the unit above which a^2 + 1 is a^2 in a float
 
 SignedLog find_scale(const Rasters& samples)
 {
