@@ -135,10 +135,9 @@ bool measure(const std::string& filename, const Settings& settings)
     pimg::InitialMesh initial;
     const double sampling = least_seconds([&] { pimg::sample(guide, settings.sampling, initial); });
     const double rest = least_seconds([&] {
-        pimg::InitialMesh copy = initial;
         pimg::SimplifyOptions options;
-        options.initial = &copy;
-        pimg::simplify(guide, options, hierarchy, bands);
+        options.start = initial;
+        pimg::simplify(guide, std::move(options), hierarchy, bands);
     });
     std::vector<const float*> channels;
     for (const std::vector<float>& c : picture.colour)

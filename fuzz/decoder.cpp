@@ -14,11 +14,12 @@ using namespace pimg;
 constexpr std::uint64_t kWhole = 1 << 22;
 
 /// Planes over one buffer, one sample apart: only that they are written to matters.
-std::vector<Plane> planes_over(std::vector<std::uint8_t>& buffer, const PictureDesc& desc, std::uint32_t width,
-                               std::uint32_t height)
+std::vector<StridedChannel> planes_over(std::vector<std::uint8_t>& buffer, const PictureDesc& desc, std::uint32_t width,
+                                        std::uint32_t height)
 {
     buffer.resize(std::size_t(width) * height * 4);
-    return std::vector<Plane>(desc.channels.size(), Plane { buffer.data(), 4, std::ptrdiff_t(width) * 4 });
+    return std::vector<StridedChannel>(desc.channels.size(),
+                                       StridedChannel { buffer.data(), 4, std::ptrdiff_t(width) * 4 });
 }
 
 void read_whole(const Decoder& decoder)

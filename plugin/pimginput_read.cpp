@@ -61,9 +61,9 @@ bool PimgInput::decode(const Request& request)
 }
 
 /// One plane per channel over the request's memory; those outside its range are not wanted.
-std::vector<Plane> PimgInput::planes(const ImageSpec& spec, const Request& request) const
+std::vector<StridedChannel> PimgInput::planes(const ImageSpec& spec, const Request& request) const
 {
-    std::vector<Plane> planes(std::size_t(spec.nchannels));
+    std::vector<StridedChannel> planes(std::size_t(spec.nchannels));
     for (int c = request.c0; c < request.c1; ++c)
         planes[std::size_t(c)] = { request.to + spec.pixel_bytes(request.c0, c, true), request.x_stride,
                                    request.y_stride };

@@ -61,10 +61,10 @@ Status guarded(Body&& body)
     }
 }
 
-std::vector<Plane> shifted(const std::vector<Plane>& planes, std::uint32_t x, std::uint32_t y)
+std::vector<StridedChannel> shifted(const std::vector<StridedChannel>& planes, std::uint32_t x, std::uint32_t y)
 {
-    std::vector<Plane> moved = planes;
-    for (Plane& p : moved)
+    std::vector<StridedChannel> moved = planes;
+    for (StridedChannel& p : moved)
         if (p.data)
             p.data =
                 static_cast<std::uint8_t*>(p.data) + std::ptrdiff_t(x) * p.x_stride + std::ptrdiff_t(y) * p.y_stride;
@@ -119,7 +119,7 @@ Status Decoder::chunks(std::vector<ChunkInfo>& list) const
     });
 }
 
-Status Decoder::read(const std::vector<Plane>& samples, ReadInfo* info, const ParallelFor& parallel) const
+Status Decoder::read(const std::vector<StridedChannel>& samples, ReadInfo* info, const ParallelFor& parallel) const
 {
     return guarded([&]() -> Status {
         const File& f = *m_file;
@@ -153,10 +153,11 @@ Status Decoder::read(const std::vector<Plane>& samples, ReadInfo* info, const Pa
         found.bytes = f.whole_bytes;
         if (f.layer)
             found.vertices = f.layer->layer.mesh.size();
-        const bool all = std::all_of(samples.begin(), samples.end(), [](const Plane& p) { return p.data != nullptr; });
+        const bool all =
+            std::all_of(samples.begin(), samples.end(), [](const StridedChannel& p) { return p.data != nullptr; });
         if (found.exact && all && f.head.hash != 0 && f.limits.check_crc) {
-            std::vector<ConstPlane> written;
-            for (const Plane& p : samples)
+            std::vector<ConstStridedChannel> written;
+            for (const StridedChannel& p : samples)
                 written.push_back({ p.data, p.x_stride, p.y_stride });
             found.hash_checked = true;
             if (hash_samples(f.desc, written) != f.head.hash)
@@ -168,7 +169,7 @@ Status Decoder::read(const std::vector<Plane>& samples, ReadInfo* info, const Pa
     });
 }
 
-Status Decoder::read_tile(std::uint32_t column, std::uint32_t row, const std::vector<Plane>& samples) const
+Status Decoder::read_tile(std::uint32_t column, std::uint32_t row, const std::vector<StridedChannel>& samples) const
 {
     return guarded([&]() -> Status {
         if (samples.size() != m_file->desc.channels.size())
@@ -180,7 +181,7 @@ Status Decoder::read_tile(std::uint32_t column, std::uint32_t row, const std::ve
     });
 }
 
-Status Decoder::read_preview(std::uint32_t width, std::uint32_t height, const std::vector<Plane>& samples,
+Status Decoder::read_preview(std::uint32_t width, std::uint32_t height, const std::vector<StridedChannel>& samples,
                              double share) const
 {
     return guarded([&]() -> Status {
@@ -206,7 +207,7 @@ Status Decoder::read_preview(std::uint32_t width, std::uint32_t height, const st
             const std::size_t next = first + group.size();
             const bool wanted =
                 std::any_of(samples.begin() + std::ptrdiff_t(first), samples.begin() + std::ptrdiff_t(next),
-                            [](const Plane& plane) { return plane.data != nullptr; });
+                            [](const StridedChannel& plane) { return plane.data != nullptr; });
             for (std::size_t k = 0; wanted && k < group.size(); ++k) {
                 group[k].resize(std::size_t(width) * height);
                 fill(layer.mesh, triangles, { numbers.data(), numbers.data() + numbers.size() },
@@ -225,8 +226,9 @@ bool Decoder::has_hierarchy() const
     return m_file->index() && m_file->done && !m_file->collapses.empty();
 }
 
-Status Decoder::read_hierarchy(const std::vector<ConstPlane>& samples, const std::vector<const float*>& channels,
-                               Hierarchy& hierarchy, std::vector<Bands>& bands) const
+Status Decoder::read_hierarchy(const std::vector<ConstStridedChannel>& samples,
+                               const std::vector<const float*>& channels, Hierarchy& hierarchy,
+                               std::vector<Bands>& bands) const
 {
     return guarded([&]() -> Status {
         const File& f = *m_file;

@@ -60,7 +60,7 @@ Status Decoder::File::read_group(ByteReader& in, const SamplePoints& points, std
 
 /// Undoes the colour transform of channels first ... and hands out their samples.
 void Decoder::File::finish(std::vector<std::vector<std::int32_t>>& group, std::size_t first, std::uint32_t width,
-                           std::uint32_t height, bool exact, const std::vector<Plane>& planes) const
+                           std::uint32_t height, bool exact, const std::vector<StridedChannel>& planes) const
 {
     if (first == 0)
         inverse(Transform(head.transform), group);
@@ -69,7 +69,7 @@ void Decoder::File::finish(std::vector<std::vector<std::int32_t>>& group, std::s
             scatter(desc.channels[first + k].type, group[k], width, height, !exact, planes[first + k], 0, 0);
 }
 
-Status Decoder::File::tile(std::uint32_t column, std::uint32_t row, const std::vector<Plane>& planes) const
+Status Decoder::File::tile(std::uint32_t column, std::uint32_t row, const std::vector<StridedChannel>& planes) const
 {
     const std::uint32_t x = column * head.tile, y = row * head.tile;
     const std::uint32_t width = std::min<std::uint32_t>(head.tile, desc.data.width - x);

@@ -21,7 +21,7 @@ namespace {
 
 class Encoder {
 public:
-    Encoder(const PictureDesc& desc, const std::vector<ConstPlane>& samples, const EncodeOptions& options)
+    Encoder(const PictureDesc& desc, const std::vector<ConstStridedChannel>& samples, const EncodeOptions& options)
         : m_desc(desc),
           m_samples(samples),
           m_options(options)
@@ -41,7 +41,7 @@ private:
     void write_front(const MeshLayerChunks& chunks, Bytes& file, EncodeStats& stats) const;
 
     const PictureDesc& m_desc;
-    const std::vector<ConstPlane>& m_samples;
+    const std::vector<ConstStridedChannel>& m_samples;
     const EncodeOptions& m_options;
     Integers m_integers;
     Transform m_transform = Transform::none;
@@ -314,7 +314,7 @@ Status Encoder::run(Bytes& file, EncodeStats& stats)
 
 }  // namespace
 
-Status encode(const PictureDesc& desc, const std::vector<ConstPlane>& samples, const EncodeOptions& options,
+Status encode(const PictureDesc& desc, const std::vector<ConstStridedChannel>& samples, const EncodeOptions& options,
               std::vector<std::uint8_t>& file, EncodeStats* stats)
 {
     DecodeLimits none;
@@ -323,7 +323,7 @@ Status encode(const PictureDesc& desc, const std::vector<ConstPlane>& samples, c
     if (!status)
         return status;
     if (samples.size() != desc.channels.size()
-        || std::any_of(samples.begin(), samples.end(), [](const ConstPlane& p) { return !p.data; }))
+        || std::any_of(samples.begin(), samples.end(), [](const ConstStridedChannel& p) { return !p.data; }))
         return Status::failure("pimg: one plane of samples per channel is needed");
     if (options.tile < 16 || options.tile > 1024 || !(options.vertices >= 0.0f && options.vertices <= 0.3f))
         return Status::failure("pimg: tile must be 16 to 1024, vertices 0 to 0.3");

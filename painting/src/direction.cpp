@@ -107,7 +107,7 @@ Grid<Tensor> halve(const Grid<Tensor>& in)
 }
 
 /// The tensors of all channels, in (units per pixel)^2.
-Grid<Tensor> tensors(const Planes& guides, const ParallelFor& parallel)
+Grid<Tensor> tensors(const ChannelsView& guides, const ParallelFor& parallel)
 {
     Grid<Tensor> sum((guides.width + 1) / 2, (guides.height + 1) / 2);
     for (const float* samples : guides.channels) {
@@ -148,7 +148,7 @@ Vec2 from_coarser(const Grid<Vec2>& coarse, int x, int y)
 
 }  // namespace
 
-DirectionField::DirectionField(const Planes& guides, const ParallelFor& parallel, float noise)
+DirectionField::DirectionField(const ChannelsView& guides, const ParallelFor& parallel, float noise)
     : m_width(guides.width),
       m_height(guides.height)
 {

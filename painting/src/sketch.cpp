@@ -8,7 +8,7 @@
 
 namespace pimg {
 
-ShadePicture::ShadePicture(const Planes& guides, const ParallelFor& parallel)
+ShadePicture::ShadePicture(const ChannelsView& guides, const ParallelFor& parallel)
     : m_width(guides.width),
       m_height(guides.height),
       m_per_channel(1.0f / float(std::max<std::size_t>(1, guides.channels.size()))),

@@ -25,7 +25,7 @@ class ShadePicture {
     static constexpr std::size_t kChannels = std::tuple_size<Shade>::value;
 
 public:
-    explicit ShadePicture(const Planes& guides, const ParallelFor& parallel);
+    explicit ShadePicture(const ChannelsView& guides, const ParallelFor& parallel);
 
     const Shade& at(Vec2 p) const
     {

@@ -234,7 +234,7 @@ void append(const Draft& draft, Index vertex, Level level, Strokes& strokes)
 
 }  // namespace
 
-Status plan_strokes(const Hierarchy& hierarchy, const Planes& guides, const DirectionField& field,
+Status plan_strokes(const Hierarchy& hierarchy, const ChannelsView& guides, const DirectionField& field,
                     const StrokeOptions& options, Strokes& strokes)
 {
     std::vector<Dab> dabs;
@@ -276,8 +276,8 @@ Status plan_strokes(const Hierarchy& hierarchy, const Planes& guides, const Dire
     return {};
 }
 
-std::vector<std::vector<float>> stroke_colors(const Strokes& strokes, const Planes& picture, const Planes& guides,
-                                              const ParallelFor& parallel)
+std::vector<std::vector<float>> stroke_colors(const Strokes& strokes, const ChannelsView& picture,
+                                              const ChannelsView& guides, const ParallelFor& parallel)
 {
     constexpr std::size_t kBlock = 1024;
     // Steps of an 8-bit picture; nearer colours count as the same paint. Chosen by eye; more: duller colours.

@@ -16,7 +16,10 @@ struct Picture {
     pimg::PictureDesc desc;
     std::vector<std::uint8_t> pixels;  ///< packed
 
-    std::vector<pimg::ConstPlane> planes() const { return pimg::interleaved(desc, (const void*)pixels.data()); }
+    std::vector<pimg::ConstStridedChannel> planes() const
+    {
+        return pimg::interleaved(desc, (const void*)pixels.data());
+    }
 };
 
 inline std::uint32_t noise(std::uint32_t& state)

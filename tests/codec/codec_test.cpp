@@ -130,8 +130,8 @@ TEST(Codec, ReadsAndWritesAnyStrides)
         for (std::size_t c = 0; c < 2; ++c)
             std::memcpy(&planar[c * plane + 2 * (1499 - i)], &p.pixels[4 * i + 2 * c], 2);
     // Stored backwards: negative strides.
-    std::vector<ConstPlane> from;
-    std::vector<Plane> to;
+    std::vector<ConstStridedChannel> from;
+    std::vector<StridedChannel> to;
     std::vector<std::uint8_t> back(planar.size());
     for (std::size_t c = 0; c < 2; ++c) {
         from.push_back({ planar.data() + c * plane + plane - 2, -2, -100 });
@@ -165,7 +165,7 @@ TEST(Codec, TilesEqualTheWholePictureAndThreadsChangeNothing)
     Decoder decoder;
     ASSERT_TRUE(decoder.open(memory_source(file.data(), file.size())));
     std::vector<std::uint8_t> tile(64 * 64 * 3);
-    std::vector<Plane> planes;
+    std::vector<StridedChannel> planes;
     for (std::size_t c = 0; c < 3; ++c)
         planes.push_back({ tile.data() + c, 3, 64 * 3 });
     ASSERT_TRUE(decoder.read_tile(2, 1, planes));
@@ -304,10 +304,8 @@ TEST(Codec, GivesBackHierarchiesOfChosenPixels)
                 SamplingOptions sampling;
                 sampling.density = density;
                 sampling.map = from_map ? map.data() : nullptr;
-                InitialMesh initial;
-                ASSERT_TRUE(sample(channels, sampling, initial));
                 SimplifyOptions options;
-                options.initial = &initial;
+                ASSERT_TRUE(sample(channels, sampling, options.start));
                 Hierarchy built;
                 std::vector<Bands> bands;
                 ASSERT_TRUE(simplify(channels, options, built, bands));

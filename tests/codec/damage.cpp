@@ -53,7 +53,7 @@ void try_file(const std::uint8_t* data, std::size_t size, bool check_crc, const 
         return;
     }
     std::vector<std::uint8_t> pixels(decoder.desc().pixel_bytes() * decoder.desc().pixels());
-    const std::vector<Plane> planes = interleaved(decoder.desc(), (void*)pixels.data());
+    const std::vector<StridedChannel> planes = interleaved(decoder.desc(), (void*)pixels.data());
     ReadInfo info;
     const Status status = decoder.read(planes, &info);
     if (status && decoder.has_hierarchy()) {
@@ -80,12 +80,10 @@ Hierarchy hierarchy_of_chosen(const Picture& picture)
     for (std::size_t i = 0; i < picture.pixels.size(); i += 3)
         samples.push_back(picture.pixels[i]);
     const Guide guide { int(picture.desc.data.width), int(picture.desc.data.height), { { samples.data(), 1.0f } } };
-    InitialMesh initial;
     Hierarchy hierarchy;
     std::vector<Bands> bands;
     SimplifyOptions options;
-    options.initial = &initial;
-    if (!sample(guide, {}, initial) || !simplify(guide, options, hierarchy, bands))
+    if (!sample(guide, {}, options.start) || !simplify(guide, options, hierarchy, bands))
         std::abort();
     return hierarchy;
 }

@@ -25,8 +25,8 @@ bool read_all(const Decoder& decoder, const Picture& original, std::uint32_t fir
     std::vector<std::uint8_t> pixels(original.pixels.size()), whole(pixels.size()), small(desc.pixel_bytes() * 16 * 16);
     for (std::uint32_t i = 0; i < columns * rows; ++i) {
         const std::uint32_t tile = (i + first) % (columns * rows), x = tile % columns, y = tile / columns;
-        std::vector<Plane> planes = interleaved(desc, static_cast<void*>(pixels.data()));
-        for (Plane& plane : planes)
+        std::vector<StridedChannel> planes = interleaved(desc, static_cast<void*>(pixels.data()));
+        for (StridedChannel& plane : planes)
             plane.data = static_cast<std::uint8_t*>(plane.data) + std::ptrdiff_t(kTile * x) * plane.x_stride
                 + std::ptrdiff_t(kTile * y) * plane.y_stride;
         if (!decoder.read_tile(x, y, planes))

@@ -60,18 +60,20 @@ struct PictureDesc {
 
 /// Where the samples of one channel lie in the caller's memory: sample (x, y) is at data + x * x_stride + y * y_stride
 /// bytes, in the machine's byte order; no alignment is needed.
-struct ConstPlane {
+struct ConstStridedChannel {
     const void* data = nullptr;
     std::ptrdiff_t x_stride = 0, y_stride = 0;
 };
-struct Plane {
+struct StridedChannel {
     void* data = nullptr;  ///< nullptr: this channel is not wanted
     std::ptrdiff_t x_stride = 0, y_stride = 0;
 };
+using ConstPlane [[deprecated("use ConstStridedChannel")]] = ConstStridedChannel;
+using Plane [[deprecated("use StridedChannel")]] = StridedChannel;
 
-/// One plane per channel over a buffer of packed pixels in row order (pixel_bytes() each).
-std::vector<ConstPlane> interleaved(const PictureDesc& desc, const void* pixels);
-std::vector<Plane> interleaved(const PictureDesc& desc, void* pixels);
+/// The channels in a buffer of packed pixels in row order (pixel_bytes() each).
+std::vector<ConstStridedChannel> interleaved(const PictureDesc& desc, const void* pixels);
+std::vector<StridedChannel> interleaved(const PictureDesc& desc, void* pixels);
 
 // ---- write ----------------------------------------------------------------------------------------------------------
 
@@ -98,8 +100,8 @@ struct EncodeStats {
     std::uint32_t mesh_vertices = 0;
 };
 
-/// Writes a picture: one plane per channel of `desc`. The same picture and options give the same bytes.
-Status encode(const PictureDesc& desc, const std::vector<ConstPlane>& samples, const EncodeOptions& options,
+/// Writes a picture: one entry of `samples` per channel of `desc`. The same picture and options give the same bytes.
+Status encode(const PictureDesc& desc, const std::vector<ConstStridedChannel>& samples, const EncodeOptions& options,
               std::vector<std::uint8_t>& file, EncodeStats* stats = nullptr);
 
 // ---- read -----------------------------------------------------------------------------------------------------------
@@ -165,16 +167,17 @@ public:
 
     /// The whole picture, as well as the file's bytes allow: tiles that are missing show the mesh layer as far as it is
     /// there. Damage anywhere (a chunk that fails its checksum) is an error; an early end of the file is not.
-    /// One plane per channel over the data window.
-    Status read(const std::vector<Plane>& samples, ReadInfo* info = nullptr, const ParallelFor& parallel = {}) const;
+    /// One entry of `samples` per channel, over the data window.
+    Status read(const std::vector<StridedChannel>& samples, ReadInfo* info = nullptr,
+                const ParallelFor& parallel = {}) const;
 
     /// The tile whose upper left pixel is (tile() * column, tile() * row) of the data window, cut at its right and
-    /// lower edges; planes point at the tile's first pixel. As exact or coarse as read() would give.
-    Status read_tile(std::uint32_t column, std::uint32_t row, const std::vector<Plane>& samples) const;
+    /// lower edges; `samples` point at the tile's first pixel. As exact or coarse as read() would give.
+    Status read_tile(std::uint32_t column, std::uint32_t row, const std::vector<StridedChannel>& samples) const;
 
     /// The picture as the first `share` (0 .. 1] of the mesh layer's vertices show it, sampled at the centres of a
     /// width x height raster over the data window. What a thumbnail is made of: reads the mesh chunks only.
-    Status read_preview(std::uint32_t width, std::uint32_t height, const std::vector<Plane>& samples,
+    Status read_preview(std::uint32_t width, std::uint32_t height, const std::vector<StridedChannel>& samples,
                         double share = 1.0) const;
 
     /// Whether the whole hierarchy is in the file.
@@ -184,7 +187,7 @@ public:
     /// read() gave; each of `channels` holds one finite value per mesh pixel (to_mesh_pixels()), usually made from
     /// them. Equal to the hierarchy that was written but for the order of the splits inside a batch (a few percent of
     /// the vertices of that level), and costs, which are those of the batch.
-    Status read_hierarchy(const std::vector<ConstPlane>& samples, const std::vector<const float*>& channels,
+    Status read_hierarchy(const std::vector<ConstStridedChannel>& samples, const std::vector<const float*>& channels,
                           Hierarchy& hierarchy, std::vector<Bands>& bands) const;
 
 private:

@@ -188,18 +188,19 @@ Bytes SymbolWriter::finish()
     BitWriter raw;
     for (const Symbol& s : m_symbols) {
         const Token t = token_of(s.value);
-        ++classes[s.klass].count[t.token];
-        ++classes[s.klass].total;
+        ++classes[s.symbol_class].count[t.token];
+        ++classes[s.symbol_class].total;
         if (t.extra > 0)
             raw.put(s.value & ((1u << t.extra) - 1), t.extra);
     }
     const std::vector<Context> contexts = join_classes(classes);
     std::vector<std::array<std::uint32_t, kTokens>> tables, starts;
     std::array<std::uint8_t, kClasses> context_of {};
-    std::uint32_t klass = 0;
+    std::uint32_t symbol_class = 0;
     for (std::size_t i = 0; i < contexts.size(); ++i) {
-        for (; klass <= contexts[i].last_class || (i + 1 == contexts.size() && klass < kClasses); ++klass)
-            context_of[klass] = std::uint8_t(i);
+        for (; symbol_class <= contexts[i].last_class || (i + 1 == contexts.size() && symbol_class < kClasses);
+             ++symbol_class)
+            context_of[symbol_class] = std::uint8_t(i);
         tables.push_back(frequencies(contexts[i].histogram));
         starts.push_back({});
         for (std::size_t t = 1; t < kTokens; ++t)
@@ -211,7 +212,7 @@ Bytes SymbolWriter::finish()
     std::uint32_t state[2] = { kStateLow, kStateLow };
     for (std::size_t n = m_symbols.size(); n-- > 0;) {
         const std::uint32_t token = token_of(m_symbols[n].value).token;
-        const std::size_t i = context_of[m_symbols[n].klass];
+        const std::size_t i = context_of[m_symbols[n].symbol_class];
         const std::uint32_t f = tables[i][token];
         std::uint32_t& x = state[n & 1];
         if (x >= std::uint64_t(f) << (32 - kProbabilityBits)) {
@@ -262,13 +263,13 @@ bool SymbolReader::read_tables(const std::uint8_t* data, std::size_t size)
     if (contexts < 1 || contexts > kMaxContexts)
         return false;
     m_tables.resize(contexts);
-    std::uint32_t klass = 0;
+    std::uint32_t symbol_class = 0;
     for (std::uint32_t i = 0; i < contexts; ++i) {
         const std::uint32_t last = i + 1 < contexts ? in.direct(7) : kClasses - 1;
-        if (last < klass || last >= kClasses)
+        if (last < symbol_class || last >= kClasses)
             return false;
-        for (; klass <= last; ++klass)
-            m_table_of[klass] = &m_tables[i];
+        for (; symbol_class <= last; ++symbol_class)
+            m_table_of[symbol_class] = &m_tables[i];
         const std::uint32_t used = in.direct(7);
         if (used < 1 || used > kTokens)
             return false;

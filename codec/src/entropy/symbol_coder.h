@@ -44,7 +44,10 @@ inline Token token_of(std::uint32_t v)
 class SymbolWriter {
 public:
     void reserve(std::size_t count) { m_symbols.reserve(count); }
-    void add(std::uint32_t klass, std::uint32_t value) { m_symbols.push_back({ value, std::uint8_t(klass) }); }
+    void add(std::uint32_t symbol_class, std::uint32_t value)
+    {
+        m_symbols.push_back({ value, std::uint8_t(symbol_class) });
+    }
     std::size_t count() const { return m_symbols.size(); }
     /// Writes the stream and forgets the symbols.
     Bytes finish();
@@ -52,7 +55,7 @@ public:
 private:
     struct Symbol {
         std::uint32_t value;
-        std::uint8_t klass;
+        std::uint8_t symbol_class;
     };
     std::vector<Symbol> m_symbols;
 };
@@ -76,9 +79,9 @@ struct SymbolCursor {
     std::uint64_t bit = 0, raw_size = 0;
     std::uint32_t state[2] = { kStateLow, kStateLow };
 
-    std::uint32_t next(std::uint32_t klass)
+    std::uint32_t next(std::uint32_t symbol_class)
     {
-        const SymbolTable& table = *table_of[klass];
+        const SymbolTable& table = *table_of[symbol_class];
         const std::uint32_t x = state[0], slot = x & (kProbabilities - 1);
         const std::uint32_t token = table.token[slot];
         const SymbolTable::Range range = table.range[token];
@@ -121,7 +124,7 @@ public:
 
     /// Reads the tables and takes the rest of the stream; false when it is damaged.
     bool open(ByteReader& in);
-    std::uint32_t next(std::uint32_t klass) { return m_cursor.next(klass); }
+    std::uint32_t next(std::uint32_t symbol_class) { return m_cursor.next(symbol_class); }
 
     SymbolCursor cursor() const { return m_cursor; }
     void set_cursor(const SymbolCursor& cursor) { m_cursor = cursor; }

@@ -71,9 +71,9 @@ void walk(const TilePlane& t, Visit&& visit)
             }
             if (guide)
                 busy += 2 * std::int64_t(guide[at]);
-            const std::uint32_t klass = class_of(std::uint32_t(std::min<std::int64_t>(busy, 0xffffffffll)));
+            const std::uint32_t symbol_class = class_of(std::uint32_t(std::min<std::int64_t>(busy, 0xffffffffll)));
             const std::int64_t base = gouraud ? std::int64_t(mesh[at]) : 0;
-            const std::uint32_t residual_size = visit(at, base + predict<shape>(w, n, nw, ne), klass);
+            const std::uint32_t residual_size = visit(at, base + predict<shape>(w, n, nw, ne), symbol_class);
             size_ww = size_w;
             size_w = std::min<std::uint32_t>(residual_size, 65535);
             sizes[at] = std::uint16_t(size_w);
@@ -132,10 +132,10 @@ std::uint64_t estimate_tile_plane(const TilePlane& plane, TilePredictor predicto
 {
     std::vector<std::array<std::uint32_t, kTokens>> counts(kClasses, std::array<std::uint32_t, kTokens> {});
     std::uint64_t bits = 0;
-    walk(plane, predictor, [&](std::size_t at, std::int64_t prediction, std::uint32_t klass) {
+    walk(plane, predictor, [&](std::size_t at, std::int64_t prediction, std::uint32_t symbol_class) {
         const std::uint32_t v = folded(plane.values[at], prediction);
         const Token t = token_of(v);
-        ++counts[klass][t.token];
+        ++counts[symbol_class][t.token];
         bits += std::uint64_t(t.extra) * 256;
         return size_of_folded(v);
     });
@@ -157,9 +157,9 @@ void write_tile_plane(const TilePlane& plane, TilePredictor predictor, Bytes& ou
     std::vector<std::uint32_t> residuals;
     residuals.reserve(plane.pixels());
     std::uint32_t largest = 0;
-    walk(plane, predictor, [&](std::size_t at, std::int64_t prediction, std::uint32_t klass) {
+    walk(plane, predictor, [&](std::size_t at, std::int64_t prediction, std::uint32_t symbol_class) {
         const std::uint32_t v = folded(plane.values[at], prediction);
-        symbols.add(klass, v);
+        symbols.add(symbol_class, v);
         residuals.push_back(v);
         largest = std::max(largest, v);
         return size_of_folded(v);
@@ -205,8 +205,8 @@ bool TilePlaneReader::read(const TilePlane& plane)
     if (m_predictor.gouraud && !plane.gouraud)
         return false;
     const auto each = [&](auto&& number) {
-        walk(plane, m_predictor, [&](std::size_t at, std::int64_t prediction, std::uint32_t klass) {
-            const std::uint32_t v = number(at, klass);
+        walk(plane, m_predictor, [&](std::size_t at, std::int64_t prediction, std::uint32_t symbol_class) {
+            const std::uint32_t v = number(at, symbol_class);
             plane.values[at] = restored(v, prediction);
             return size_of_folded(v);
         });
@@ -222,7 +222,7 @@ bool TilePlaneReader::read(const TilePlane& plane)
         return true;
     }
     SymbolCursor cursor = m_symbols.cursor();
-    each([&](std::size_t, std::uint32_t klass) { return cursor.next(klass); });
+    each([&](std::size_t, std::uint32_t symbol_class) { return cursor.next(symbol_class); });
     m_symbols.set_cursor(cursor);
     return m_symbols.finished();
 }

@@ -48,14 +48,14 @@ std::vector<PlaneType> interleaved_planes(const PictureDesc& desc, Pointer pixel
 
 }  // namespace
 
-std::vector<ConstPlane> interleaved(const PictureDesc& desc, const void* pixels)
+std::vector<ConstStridedChannel> interleaved(const PictureDesc& desc, const void* pixels)
 {
-    return interleaved_planes<ConstPlane>(desc, static_cast<const std::uint8_t*>(pixels));
+    return interleaved_planes<ConstStridedChannel>(desc, static_cast<const std::uint8_t*>(pixels));
 }
 
-std::vector<Plane> interleaved(const PictureDesc& desc, void* pixels)
+std::vector<StridedChannel> interleaved(const PictureDesc& desc, void* pixels)
 {
-    return interleaved_planes<Plane>(desc, static_cast<std::uint8_t*>(pixels));
+    return interleaved_planes<StridedChannel>(desc, static_cast<std::uint8_t*>(pixels));
 }
 
 bool allows(const PictureDesc& desc, Transform transform)
@@ -108,8 +108,8 @@ int mesh_shift(SampleType type)
 namespace {
 
 template<class T>
-void gather_plane(SampleType type, const ConstPlane& plane, std::uint32_t x0, std::uint32_t y0, std::uint32_t width,
-                  std::uint32_t height, std::int32_t* to)
+void gather_plane(SampleType type, const ConstStridedChannel& plane, std::uint32_t x0, std::uint32_t y0,
+                  std::uint32_t width, std::uint32_t height, std::int32_t* to)
 {
     for (std::uint32_t y = 0; y < height; ++y) {
         const auto* from = static_cast<const std::uint8_t*>(plane.data) + std::ptrdiff_t(y0 + y) * plane.y_stride
@@ -123,7 +123,7 @@ void gather_plane(SampleType type, const ConstPlane& plane, std::uint32_t x0, st
 }
 
 template<SampleType type, class T>
-void scatter_plane(const std::int32_t* from, std::uint32_t width, std::uint32_t height, const Plane& plane,
+void scatter_plane(const std::int32_t* from, std::uint32_t width, std::uint32_t height, const StridedChannel& plane,
                    std::uint32_t x0, std::uint32_t y0)
 {
     for (std::uint32_t y = 0; y < height; ++y) {
@@ -161,8 +161,8 @@ void range_of(SampleType type, std::int32_t& low, std::int32_t& high)
 
 }  // namespace
 
-Integers gather(const PictureDesc& desc, const std::vector<ConstPlane>& planes, std::uint32_t x, std::uint32_t y,
-                std::uint32_t width, std::uint32_t height)
+Integers gather(const PictureDesc& desc, const std::vector<ConstStridedChannel>& planes, std::uint32_t x,
+                std::uint32_t y, std::uint32_t width, std::uint32_t height)
 {
     Integers result;
     result.width = width;
@@ -187,7 +187,7 @@ Integers gather(const PictureDesc& desc, const std::vector<ConstPlane>& planes, 
 }
 
 void scatter(SampleType type, std::vector<std::int32_t>& integers, std::uint32_t width, std::uint32_t height,
-             bool clamp, const Plane& plane, std::uint32_t x, std::uint32_t y)
+             bool clamp, const StridedChannel& plane, std::uint32_t x, std::uint32_t y)
 {
     if (clamp) {
         std::int32_t low = 0, high = 0;
@@ -274,7 +274,7 @@ void inverse(Transform transform, std::vector<std::vector<std::int32_t>>& channe
 namespace {
 
 /// Whether rows are packed pixels in the byte order of the hash.
-bool is_packed(const PictureDesc& desc, const std::vector<ConstPlane>& planes)
+bool is_packed(const PictureDesc& desc, const std::vector<ConstStridedChannel>& planes)
 {
     const std::uint16_t probe = 1;
     std::uint8_t low = 0;
@@ -290,7 +290,7 @@ bool is_packed(const PictureDesc& desc, const std::vector<ConstPlane>& planes)
 
 }  // namespace
 
-std::uint64_t hash_samples(const PictureDesc& desc, const std::vector<ConstPlane>& planes)
+std::uint64_t hash_samples(const PictureDesc& desc, const std::vector<ConstStridedChannel>& planes)
 {
     SampleHash hash;
     const std::size_t pixel = desc.pixel_bytes();

@@ -37,8 +37,8 @@ std::uint32_t to_bits(SampleType type, std::int32_t integer);
 int mesh_shift(SampleType type);
 
 /// Reads width x height samples starting at (x, y) of the planes.
-Integers gather(const PictureDesc& desc, const std::vector<ConstPlane>& planes, std::uint32_t x, std::uint32_t y,
-                std::uint32_t width, std::uint32_t height);
+Integers gather(const PictureDesc& desc, const std::vector<ConstStridedChannel>& planes, std::uint32_t x,
+                std::uint32_t y, std::uint32_t width, std::uint32_t height);
 
 /// In place, on the first three channels.
 void forward(Transform transform, std::vector<std::vector<std::int32_t>>& channels);
@@ -47,9 +47,9 @@ void inverse(Transform transform, std::vector<std::vector<std::int32_t>>& channe
 /// Writes the integers of channel c, untransformed, as samples at (x, y) of its plane. With `clamp`, values outside the
 /// type's range are brought back into it: for the mesh layer alone. The integers are used up.
 void scatter(SampleType type, std::vector<std::int32_t>& integers, std::uint32_t width, std::uint32_t height,
-             bool clamp, const Plane& plane, std::uint32_t x, std::uint32_t y);
+             bool clamp, const StridedChannel& plane, std::uint32_t x, std::uint32_t y);
 
 /// XXH64 of all samples: rows top down, pixels left to right, channels in order, each little-endian.
-std::uint64_t hash_samples(const PictureDesc& desc, const std::vector<ConstPlane>& planes);
+std::uint64_t hash_samples(const PictureDesc& desc, const std::vector<ConstStridedChannel>& planes);
 
 }  // namespace pimg

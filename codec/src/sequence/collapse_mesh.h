@@ -47,7 +47,7 @@ public:
     struct Candidates {
         int count = 0;
         Index nearest = kGhost;
-        std::uint32_t klass = 0;  ///< under which the choice is coded: how many, and how clear the nearest is
+        std::uint32_t symbol_class = 0;  ///< under which the choice is coded: how many, and how clear the nearest is
     };
     Candidates candidates(Index t) const;
     /// Number `choice` of them, or kGhost.
@@ -98,7 +98,7 @@ inline std::int32_t expected(std::int32_t t, std::int32_t u, std::int32_t extent
 
 /// Class of a quad's diagonal: how much its two candidates differ; the prediction is the smaller jump.
 struct DiagonalGuess {
-    std::uint32_t klass;
+    std::uint32_t symbol_class;
     bool falling;
 };
 inline DiagonalGuess guess_diagonal(const std::int32_t* p, int width)

@@ -193,7 +193,7 @@ void SequenceReader::read_diagonals(SymbolReader& in, const std::vector<std::int
         for (int x = 0; x + 1 < width; ++x) {
             const DiagonalGuess guess =
                 guess_diagonal(&guide[std::size_t(y) * std::size_t(width) + std::size_t(x)], width);
-            falling[quad++] = (in.next(guess.klass) & 1) ? !guess.falling : guess.falling;
+            falling[quad++] = (in.next(guess.symbol_class) & 1) ? !guess.falling : guess.falling;
         }
     m_mesh.connect(falling);
 }
@@ -222,7 +222,7 @@ bool SequenceReader::read_collapse(Index t)
     if (!m_mesh.alive(t))
         return false;
     const CollapseMesh::Candidates near = m_mesh.candidates(t);
-    const std::uint32_t choice = m_choice.next(near.klass);
+    const std::uint32_t choice = m_choice.next(near.symbol_class);
     if (choice >= std::uint32_t(near.count))
         return false;
     const Index u = choice == 0 ? near.nearest : m_mesh.candidate(t, choice);
@@ -232,8 +232,8 @@ bool SequenceReader::read_collapse(Index t)
     const Point pt = m_mesh.vertices[t].at, pu = m_mesh.vertices[u].at, e = m_mesh.extent();
     const CollapseClasses k = collapse_classes(pt, pu, e);
     Point s { expected(pt.x, pu.x, e.x), expected(pt.y, pu.y, e.y) };
-    const auto moved = [&](SymbolReader& in, std::uint32_t klass, std::int32_t from, std::int32_t most) {
-        const std::int64_t v = (std::int64_t(from >> m_shift) + unfold(in.next(klass))) * (1 << m_shift);
+    const auto moved = [&](SymbolReader& in, std::uint32_t symbol_class, std::int32_t from, std::int32_t most) {
+        const std::int64_t v = (std::int64_t(from >> m_shift) + unfold(in.next(symbol_class))) * (1 << m_shift);
         return std::int32_t(std::clamp<std::int64_t>(v, -1, std::int64_t(most) + 1));
     };
     if (k.x_free)

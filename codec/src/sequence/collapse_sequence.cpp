@@ -13,13 +13,13 @@
 
 namespace pimg {
 
-std::vector<std::int32_t> diagonal_guide(const PictureDesc& desc, const std::vector<ConstPlane>& samples)
+std::vector<std::int32_t> diagonal_guide(const PictureDesc& desc, const std::vector<ConstStridedChannel>& samples)
 {
     const auto& c = desc.channels;
     const bool colour = c.size() >= 3 && c[0].type == c[1].type && c[0].type == c[2].type;
     PictureDesc used = desc;
     used.channels.resize(colour ? 3 : 1);
-    const std::vector<ConstPlane> planes(samples.begin(), samples.begin() + (colour ? 3 : 1));
+    const std::vector<ConstStridedChannel> planes(samples.begin(), samples.begin() + (colour ? 3 : 1));
     const Integers in = gather(used, planes, 0, 0, desc.data.width, desc.data.height);
     const int shift = mesh_shift(c[0].type);
     const std::uint32_t width = std::max(2u, in.width), height = std::max(2u, in.height);
@@ -177,7 +177,7 @@ CollapseMesh::Candidates CollapseMesh::candidates(Index t) const
     std::uint32_t clear = 0;
     if (found.count > 1)
         clear = second == least ? 0 : 2 * second < 3 * least ? 1 : second < 3 * least ? 2 : 3;
-    found.klass = 4 * std::uint32_t(found.count) + clear;
+    found.symbol_class = 4 * std::uint32_t(found.count) + clear;
     return found;
 }
 

@@ -21,11 +21,11 @@ struct CollapseChunks {
 
 /// Positions are moved onto multiples of 2^lattice_shift lattice units; 0 keeps them.
 Status write_collapse_sequence(const Hierarchy& hierarchy, const PictureDesc& desc,
-                               const std::vector<ConstPlane>& samples, std::uint32_t lattice_shift,
+                               const std::vector<ConstStridedChannel>& samples, std::uint32_t lattice_shift,
                                CollapseChunks& chunks);
 
 /// The integer picture, one value per mesh pixel, that predicts the diagonals of the grid's quads.
-std::vector<std::int32_t> diagonal_guide(const PictureDesc& desc, const std::vector<ConstPlane>& samples);
+std::vector<std::int32_t> diagonal_guide(const PictureDesc& desc, const std::vector<ConstStridedChannel>& samples);
 
 /// A chunk's payload.
 struct ByteSpan {

@@ -187,7 +187,7 @@ bool SequenceWriter::write_batch(const Collapse* first, const Collapse* last, fl
         std::uint32_t choice = 0;
         if (c->u != near.nearest)
             while (m_mesh.candidate(c->t, ++choice) != c->u) { }
-        m_streams.choice.add(near.klass, choice);
+        m_streams.choice.add(near.symbol_class, choice);
         Star star;
         Point s;
         if (!m_mesh.load_star(c->t, c->u, star) || !find_place(star, *c, s))
@@ -215,7 +215,7 @@ SequenceWriter::SequenceWriter(const CollapseMesh& mesh, std::uint32_t lattice_s
     for (std::size_t quad = 0; quad < falling.size(); ++quad) {
         const std::size_t x = quad % std::size_t(width - 1), y = quad / std::size_t(width - 1);
         const DiagonalGuess guess = guess_diagonal(&guide[y * std::size_t(width) + x], width);
-        m_streams.diagonal.add(guess.klass, falling[quad] != (guess.falling ? 1 : 0));
+        m_streams.diagonal.add(guess.symbol_class, falling[quad] != (guess.falling ? 1 : 0));
     }
     m_streams.start = initial;
     for (Index v = 0; v < m_mesh.size(); ++v)
@@ -244,8 +244,9 @@ bool SequenceWriter::run(const std::vector<Collapse>& collapses, CollapseChunks&
 
 }  // namespace
 
-Status write_collapse_sequence(const Hierarchy& h, const PictureDesc& desc, const std::vector<ConstPlane>& samples,
-                               std::uint32_t lattice_shift, CollapseChunks& chunks)
+Status write_collapse_sequence(const Hierarchy& h, const PictureDesc& desc,
+                               const std::vector<ConstStridedChannel>& samples, std::uint32_t lattice_shift,
+                               CollapseChunks& chunks)
 {
     Mesh finest;
     std::vector<Point> coarse;

@@ -67,6 +67,13 @@ private:
     std::vector<Index> m_span;       ///< pixels of each vertex's run at its birth
 };
 
+/// Means of one channel over the dual pieces of all levels. The larger a piece, the less texture its mean carries,
+/// which the value of its vertex does not have.
+struct PieceMeans {
+    std::vector<float> base;        ///< of the pieces of the base vertices
+    std::vector<SplitPair> splits;  ///< of the pieces of t and u of each split
+};
+
 /// Two pieces (or regions) that touch along pixel sides; a < b.
 struct Border {
     Index a, b;

@@ -20,6 +20,11 @@ struct Split {
     Point t, u;    ///< positions after the split
 };
 
+/// One number for each of the two vertices a split makes.
+struct SplitPair {
+    float t, u;
+};
+
 /// Where t and u lie in the coarser mesh: the face (s, a, b) and two of the
 /// three barycentric weights, that of s being 1 - wa - wb.
 ///     prediction of t = z[s] + wat (z[at] - z[s]) + wbt (z[bt] - z[s])

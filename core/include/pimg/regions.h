@@ -5,19 +5,10 @@
 
 #include <vector>
 
+#include <pimg/channels.h>
 #include <pimg/types.h>
 
 namespace pimg {
-
-/// What to merge: one or more channels, finite, row-major, whose Euclidean distance is how different two
-/// pixels look. Meant for CIELAB: one unit is about the smallest difference one can see.
-struct RegionInput {
-    int width = 0, height = 0;
-    std::vector<const float*> channels;
-    /// Pieces to start from, one number per pixel, such as DualPieces::labels(); their 4-connected parts
-    /// are what is merged. Null: every pixel is a piece.
-    const std::vector<Index>* pieces = nullptr;
-};
 
 /// What makes a border cheap. With areas n1, n2, distance D of the means, mean strength E of the gradient along the
 /// shared border and its length l, it costs
@@ -26,18 +17,39 @@ struct RegionInput {
 /// differs at the border; the last factor favours long borders, so regions grow compact. How the defaults were found:
 /// docs/internals.md.
 struct RegionOptions {
-    float boundary = 8.0f;   ///< weight of the gradient along the border, in units of `channels`, 0 ..
+    float boundary = 8.0f;   ///< weight of the gradient along the border, in units of the channels, 0 ..
     float floor = 1.0f;      ///< squared distance below which all differences look alike, > 0
     float smoothing = 1.0f;  ///< standard deviation, in pixels, of the Gaussian under the gradient, 0 ..
     Progress progress;
+    /// Pieces to start from, one number per pixel, such as DualPieces::labels(); their 4-connected parts
+    /// are what is merged. Null: every pixel is a piece.
+    const std::vector<Index>* pieces = nullptr;
+};
+
+struct [[deprecated("use a ChannelsView and RegionOptions::pieces")]] RegionInput
+{
+    int width = 0, height = 0;
+    std::vector<const float*> channels;
+    const std::vector<Index>* pieces = nullptr;
 };
 
 /// The merges of a picture's pieces. A coarser cut is a union of regions of every finer cut;
 /// regions are 4-connected.
 class RegionTree {
 public:
-    /// Fails on an empty or inconsistent input or when `progress` asked to stop.
-    static Status build(const RegionInput& input, const RegionOptions& options, RegionTree& tree);
+    /// Merges the pieces of `picture`: one or more channels of finite samples, whose Euclidean distance is how different
+    /// two pixels look. Meant for CIELAB, where one unit is about the smallest difference one can see.
+    /// Fails on an empty picture, when `pieces` are not one number per pixel, and when `progress` asked to stop.
+    static Status build(const ChannelsView& picture, const RegionOptions& options, RegionTree& tree);
+
+    template<class Input, class = decltype(Input::pieces)>
+    [[deprecated("use a ChannelsView and RegionOptions::pieces")]] static Status build(const Input& input,
+                                                                                       RegionOptions options,
+                                                                                       RegionTree& tree)
+    {
+        options.pieces = input.pieces;
+        return build(ChannelsView { input.width, input.height, input.channels }, options, tree);
+    }
 
     /// Pieces at the start: the largest number of regions there is.
     Index leaves() const { return m_leaves; }

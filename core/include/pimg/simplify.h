@@ -25,10 +25,9 @@ struct SimplifyOptions {
     Index base_faces = 128;  ///< triangles of the base mesh; 2 (the four corners) or more
     ParallelFor parallel;    ///< threads to use; the result does not depend on them
     Progress progress;
-    InitialMesh* initial =
-        nullptr;  ///< mesh to start from (sampling.h), whose twins are given up as soon as they have been
-                  ///< read, to save memory; none: one vertex per pixel
+    const InitialMesh* initial = nullptr;  ///< deprecated, use `start`; a mesh that is copied there if that is empty
     Metric metric = Metric::volume;
+    InitialMesh start;  ///< mesh to start from (sampling.h); empty: one vertex per pixel
 };
 
 /// What building returns besides the hierarchy.
@@ -39,10 +38,11 @@ struct SimplifyStats {
     std::size_t peak_bytes = 0;   ///< working memory of the engine at its largest
 };
 
-/// Simplifies the height field of `guide`. `bands` receives the guide channels' own bands, whose coarse values preserve
+/// Simplifies the height field of `guide`. Options that hold a mesh are best moved in, since its memory is given back as
+/// soon as it has been read. `bands` receives the guide channels' own bands, whose coarse values preserve
 /// the volume under the surface at every level: the mean intensity of every M_i is the picture's.
-/// Fails on an empty or oversized guide, or when `progress` asked to stop.
-Status simplify(const Guide& guide, const SimplifyOptions& options, Hierarchy& hierarchy, std::vector<Bands>& bands,
+/// Fails on an empty or oversized guide, on a mesh that is damaged or of another size, or when `progress` asked to stop.
+Status simplify(const Guide& guide, SimplifyOptions options, Hierarchy& hierarchy, std::vector<Bands>& bands,
                 SimplifyStats* stats = nullptr);
 
 }  // namespace pimg

@@ -37,9 +37,6 @@ inline std::int64_t doubled_area(Point a, Point b, Point c)
     return std::int64_t(b.x - a.x) * (c.y - a.y) - std::int64_t(c.x - a.x) * (b.y - a.y);
 }
 
-/// Channels of one picture: rasters of width x height samples each, row-major.
-using Rasters = std::vector<std::vector<float>>;
-
 /// Outcome of an operation that can fail: empty = fine, otherwise one line that
 /// names what was wrong and what was expected. Core neither throws nor prints.
 class Status {

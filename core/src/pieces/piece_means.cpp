@@ -36,10 +36,10 @@ std::vector<float> finest_sums(const Hierarchy& h, const float* samples)
 
 }  // namespace
 
-std::vector<Detail> piece_sizes(const Hierarchy& h)
+std::vector<SplitPair> piece_sizes(const Hierarchy& h)
 {
     std::vector<float> size = finest_sizes(h);
-    std::vector<Detail> sizes(h.levels());
+    std::vector<SplitPair> sizes(h.levels());
     const Index base = h.base_vertices();
     for (Level i = h.levels(); i-- > 0;) {
         float& s = size[h.stencils[i].s];
@@ -49,7 +49,7 @@ std::vector<Detail> piece_sizes(const Hierarchy& h)
     return sizes;
 }
 
-Bands piece_means(const Hierarchy& h, const float* samples)
+PieceMeans piece_means(const Hierarchy& h, const float* samples)
 {
     struct Piece {
         float mean, size;
@@ -59,12 +59,12 @@ Bands piece_means(const Hierarchy& h, const float* samples)
     std::vector<Piece> pieces(h.vertices());
     for (Index v = 0; v < h.vertices(); ++v)
         pieces[v] = { sums[v] / sizes[v], sizes[v] };
-    Bands means;
-    means.details.resize(h.levels());
+    PieceMeans means;
+    means.splits.resize(h.levels());
     for (Level i = h.levels(); i-- > 0;) {
         Piece& s = pieces[h.stencils[i].s];
         const Piece u = pieces[base + i];
-        means.details[i] = { s.mean, u.mean };
+        means.splits[i] = { s.mean, u.mean };
         s.size += u.size;
         s.mean += (u.mean - s.mean) * (u.size / s.size);
     }

@@ -50,11 +50,11 @@ void smooth(std::vector<float>& samples, std::size_t width, std::size_t height, 
 }
 
 /// Length of the gradient per pixel over all channels, by central differences.
-std::vector<float> gradient(const RegionInput& input, float sigma)
+std::vector<float> gradient(const ChannelsView& picture, float sigma)
 {
-    const std::size_t w = std::size_t(input.width), h = std::size_t(input.height);
+    const std::size_t w = std::size_t(picture.width), h = std::size_t(picture.height);
     std::vector<float> squares(w * h, 0.0f), samples;
-    for (const float* channel : input.channels) {
+    for (const float* channel : picture.channels) {
         samples.assign(channel, channel + w * h);
         smooth(samples, w, h, sigma);
         for (std::size_t y = 0; y < h; ++y) {
@@ -91,7 +91,7 @@ struct Later {
 /// Greedy merging with a queue of regions, each under its cheapest border.
 class RegionMerger {
 public:
-    RegionMerger(const RegionInput& input, const RegionOptions& options, RegionTree& tree);
+    RegionMerger(const ChannelsView& picture, const RegionOptions& options, RegionTree& tree);
     bool run();
 
 private:
@@ -103,8 +103,8 @@ private:
     };
 
     const float* mean(Index r) const { return &m_means[r * m_channels]; }
-    void add_pieces(const RegionInput& input);
-    void add_borders(const RegionInput& input);
+    void add_pieces(const ChannelsView& picture);
+    void add_borders(const ChannelsView& picture);
     float cost(Index a, Index b, const RegionGraph::Shared& shared) const;
     void find_best(Index r);
     void enqueue(Index r) { m_queue.push({ m_regions[r].cost, r, m_regions[r].stamp }); }
@@ -120,25 +120,25 @@ private:
     std::priority_queue<Candidate, std::vector<Candidate>, Later> m_queue;
 };
 
-RegionMerger::RegionMerger(const RegionInput& input, const RegionOptions& options, RegionTree& tree)
+RegionMerger::RegionMerger(const ChannelsView& picture, const RegionOptions& options, RegionTree& tree)
     : m_options(options),
       m_tree(tree),
-      m_channels(input.channels.size()),
+      m_channels(picture.channels.size()),
       m_regions(tree.m_leaves),
       m_means(tree.m_leaves * m_channels),
       m_graph(tree.m_leaves)
 {
-    add_pieces(input);
-    add_borders(input);
+    add_pieces(picture);
+    add_borders(picture);
 }
 
-void RegionMerger::add_pieces(const RegionInput& input)
+void RegionMerger::add_pieces(const ChannelsView& picture)
 {
     const std::vector<Index>& leaf_of = m_tree.m_leaf_of;
     std::vector<double> sums(m_means.size(), 0.0);
     for (std::size_t p = 0; p < leaf_of.size(); ++p) {
         for (std::size_t c = 0; c < m_channels; ++c)
-            sums[leaf_of[p] * m_channels + c] += double(input.channels[c][p]);
+            sums[leaf_of[p] * m_channels + c] += double(picture.channels[c][p]);
         m_regions[leaf_of[p]].area += 1.0f;
     }
     for (std::size_t i = 0; i < sums.size(); ++i)
@@ -146,11 +146,11 @@ void RegionMerger::add_pieces(const RegionInput& input)
 }
 
 /// One border per pair of pieces: those of each piece are gathered from its pixels' sides, sorted.
-void RegionMerger::add_borders(const RegionInput& input)
+void RegionMerger::add_borders(const ChannelsView& picture)
 {
     const std::vector<Index>& leaf_of = m_tree.m_leaf_of;
-    const std::size_t w = std::size_t(input.width), n = leaf_of.size();
-    const std::vector<float> slope = gradient(input, m_options.smoothing);
+    const std::size_t w = std::size_t(picture.width), n = leaf_of.size();
+    const std::vector<float> slope = gradient(picture, m_options.smoothing);
     struct Side {
         std::uint64_t pair;
         float strength;
@@ -275,25 +275,25 @@ bool RegionMerger::run()
     return true;
 }
 
-Status RegionTree::build(const RegionInput& input, const RegionOptions& options, RegionTree& tree)
+Status RegionTree::build(const ChannelsView& picture, const RegionOptions& options, RegionTree& tree)
 {
-    const std::size_t n = std::size_t(std::max(input.width, 0)) * std::size_t(std::max(input.height, 0));
-    if (n == 0 || input.channels.empty())
+    const std::size_t n = std::size_t(std::max(picture.width, 0)) * std::size_t(std::max(picture.height, 0));
+    if (n == 0 || picture.channels.empty())
         return Status::failure("the picture is empty");
-    if (n > std::size_t(1) << 30 || input.channels.size() > kMaxChannels)
+    if (n > std::size_t(1) << 30 || picture.channels.size() > kMaxChannels)
         return Status::failure("segmentation takes at most 2^30 pixels and 64 channels");
-    if (input.pieces && input.pieces->size() != n)
+    if (options.pieces && options.pieces->size() != n)
         return Status::failure("the pieces to merge are not those of this picture");
     RegionTree t;
-    if (input.pieces) {
-        t.m_leaf_of = *input.pieces;
-        t.m_leaves = connected_parts(t.m_leaf_of, input.width, input.height);
+    if (options.pieces) {
+        t.m_leaf_of = *options.pieces;
+        t.m_leaves = connected_parts(t.m_leaf_of, picture.width, picture.height);
     } else {
         t.m_leaf_of.resize(n);
         std::iota(t.m_leaf_of.begin(), t.m_leaf_of.end(), Index(0));
         t.m_leaves = Index(n);
     }
-    if (!RegionMerger(input, options, t).run())
+    if (!RegionMerger(picture, options, t).run())
         return Status::failure("segmentation was stopped");
     tree = std::move(t);
     return {};

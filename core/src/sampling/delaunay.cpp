@@ -48,7 +48,7 @@ private:
     int direction(Index e) const;
     void flip_inside(Index e);
     void legalise(bool near);
-    void settle();
+    void flip_remaining();
 
     InitialMesh& m_mesh;
     const Guide& m_guide;
@@ -91,7 +91,7 @@ void Sweep::run()
     }
     m_mesh.corners.resize(m_size);
     m_mesh.twins.resize(m_size);
-    settle();
+    flip_remaining();
 }
 
 void Sweep::start_front(Index count)
@@ -220,7 +220,7 @@ int Sweep::direction(Index e) const
 }
 
 /// Flips edges until those in doubt, and those a flip puts in doubt, have empty circles. While the sweep goes on the
-/// two near ones of a flip are left to settle(): they hardly ever turn out bad.
+/// two near ones of a flip are left to flip_remaining(): they hardly ever turn out bad.
 void Sweep::legalise(bool near)
 {
     while (!m_suspects.empty()) {
@@ -241,7 +241,7 @@ void Sweep::legalise(bool near)
 
 /// Checks every edge, so that all circles are empty; then takes the diagonal of the smaller jump where four pixels lie
 /// on one.
-void Sweep::settle()
+void Sweep::flip_remaining()
 {
     std::vector<Index> ties;
     for (Index e = 0; e < m_size; ++e) {

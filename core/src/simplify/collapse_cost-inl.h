@@ -229,12 +229,12 @@ HWY_INLINE void hold_to_sides(const EdgeFan& f, const System& g, int j, hn::Vec<
     const auto own_x = hn::Set(d, f.side & kFixedX ? 1.0f : 0.0f), own_y = hn::Set(d, f.side & kFixedY ? 1.0f : 0.0f);
     const auto side_x = other_x * (one - own_x) * hn::Load(d, f.corners.x + j);
     const auto side_y = other_y * (one - own_y) * hn::Load(d, f.corners.y + j);
-    const auto held_x = hn::Gt(hn::Max(own_x, other_x), hn::Zero(d));
-    const auto held_y = hn::Gt(hn::Max(own_y, other_y), hn::Zero(d));
+    const auto on_side_x = hn::Gt(hn::Max(own_x, other_x), hn::Zero(d));
+    const auto on_side_y = hn::Gt(hn::Max(own_y, other_y), hn::Zero(d));
     const auto slide_x = (g.x - g.xy * side_y) / hn::Max(g.xx, tiny);
     const auto slide_y = (g.y - g.xy * side_x) / hn::Max(g.yy, tiny);
-    x = hn::IfThenElse(held_x, side_x, hn::IfThenElse(held_y, slide_x, x));
-    y = hn::IfThenElse(held_y, side_y, hn::IfThenElse(held_x, slide_y, y));
+    x = hn::IfThenElse(on_side_x, side_x, hn::IfThenElse(on_side_y, slide_x, x));
+    y = hn::IfThenElse(on_side_y, side_y, hn::IfThenElse(on_side_x, slide_y, y));
 }
 
 HWY_INLINE void store_plane(const Quadric& h, int j, float* alpha, float* beta, float* offset)

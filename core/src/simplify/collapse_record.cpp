@@ -161,8 +161,10 @@ void fill_splits(const CollapseSequence& sequence, const std::vector<Index>& by_
                           r.stencil.wbt,        r.stencil.wau,        r.stencil.wbu };
         h.costs[i] = r.order;
         bands[0].details[i] = { r.zt, r.zu };
-        for (std::size_t c = 0; c < more; ++c)
-            bands[c + 1].details[i] = sequence.more[by_order[n - 1 - i] * more + c];
+        for (std::size_t c = 0; c < more; ++c) {
+            const SplitPair z = sequence.more[by_order[n - 1 - i] * more + c];
+            bands[c + 1].details[i] = { z.t, z.u };
+        }
     };
     run(parallel, batches_of(by_order.size()),
         [&](std::size_t batch) { for_batch(batch, by_order, sequence.records, fetch, fill); });

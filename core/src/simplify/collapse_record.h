@@ -36,7 +36,7 @@ struct BaseVertex {
 struct CollapseSequence {
     int channels = 1;
     FlatArray<CollapseRecord> records;
-    FlatArray<Detail> more;  ///< zt and zu of the channels after the first, channels - 1 a record
+    FlatArray<SplitPair> more;  ///< zt and zu of the channels after the first, channels - 1 a record
     std::vector<BaseVertex> base;
 };
 

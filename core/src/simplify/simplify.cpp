@@ -3,6 +3,7 @@
 // queue. Tiles are visited in order, each is collapsed up to a cost limit while it sits in the cache, and the limit
 // rises from sweep to sweep; inside a tile it rises in finer steps. Keys are lazy: a vertex is
 // evaluated again only when its old cost comes up. Why this loses no quality: docs/internals.md.
+#include <pimg/channels.h>
 #include <pimg/detail/parallel.h>
 #include <pimg/simplify.h>
 
@@ -21,6 +22,7 @@ namespace {
 
 constexpr float kFirstLimit = 1e-3f;  ///< about the cost floor of a pixel-sized edge
 constexpr float kSweepFactor = 4.0f;  ///< between the limits of successive sweeps
+constexpr const char* kStopped = "building was stopped";
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// Shape a triangle must keep: twice its area over its longest edge squared. The second
@@ -135,8 +137,8 @@ void Simplifier::collect(std::size_t n)
 
 void Simplifier::measure()
 {
-    std::size_t bytes =
-        m_mesh.bytes() + m_sequence.records.size() * sizeof(CollapseRecord) + m_sequence.more.size() * sizeof(Detail);
+    std::size_t bytes = m_mesh.bytes() + m_sequence.records.size() * sizeof(CollapseRecord)
+        + m_sequence.more.size() * sizeof(SplitPair);
     for (const TileOutput& output : m_outputs)
         bytes += output.bytes();
     m_stats.peak_bytes = std::max(m_stats.peak_bytes, bytes);
@@ -189,52 +191,71 @@ Status check(const Guide& guide)
     return {};
 }
 
+/// One line on what is wrong with a mesh to start from, if there is one.
+Status check(const SimplifyOptions& options, const Hierarchy& shape)
+{
+    const InitialMesh& start = options.start;
+    if (start.vertices() == 0)
+        return {};
+    if (options.metric != Metric::volume)
+        return Status::failure(
+            "an initial mesh needs the metric volume: quadric and exact start from one vertex per pixel");
+    if (start.twins.size() != start.corners.size())
+        return Status::failure("the initial mesh has no twins");
+    if (start.width != shape.mesh_width() || start.height != shape.mesh_height())
+        return Status::failure("the initial mesh is for a picture of another size");
+    return {};
+}
+
+/// Collapses all there is to collapse; the memory of the mesh's twins is given back on the way.
+Status collapse(const Guide& on_mesh, SimplifyOptions& options, CollapseSequence& sequence, SimplifyStats& stats)
+{
+    if (options.metric != Metric::volume) {
+        PlainMesh mesh(on_mesh);
+        const auto metric = options.metric == Metric::quadric ? quadric_metric(mesh) : exact_metric(mesh);
+        return collapse_all(mesh, *metric, options.progress, sequence, stats) ? Status() : Status::failure(kStopped);
+    }
+    const bool from_every_pixel = options.start.vertices() == 0;
+    Simplifier simplifier(
+        from_every_pixel ? WorkingMesh(on_mesh, options.parallel) : WorkingMesh(on_mesh, options.start), options);
+    std::vector<Index>().swap(options.start.twins);
+    if (!simplifier.run())
+        return Status::failure(kStopped);
+    sequence = simplifier.take_sequence();
+    stats = simplifier.stats();
+    return {};
+}
+
 }  // namespace
 
-Status simplify(const Guide& guide, const SimplifyOptions& options, Hierarchy& hierarchy, std::vector<Bands>& bands,
+Status simplify(const Guide& guide, SimplifyOptions options, Hierarchy& hierarchy, std::vector<Bands>& bands,
                 SimplifyStats* stats)
 {
-    if (const Status status = check(guide); !status)
-        return status;
+    if (options.initial && options.start.vertices() == 0)
+        options.start = *options.initial;
     Hierarchy shape;
     shape.width = guide.width;
     shape.height = guide.height;
-    if (options.initial && options.metric != Metric::volume)
-        return Status::failure(
-            "an initial mesh needs the metric volume: quadric and exact start from one vertex per pixel");
-    if (options.initial && options.initial->twins.size() != options.initial->corners.size())
-        return Status::failure("the initial mesh has no twins");
-    if (options.initial
-        && (options.initial->width != shape.mesh_width() || options.initial->height != shape.mesh_height()))
-        return Status::failure("the initial mesh is for a picture of another size");
+    Status status = check(guide);
+    if (status)
+        status = check(options, shape);
+    if (!status)
+        return status;
     Guide on_mesh { shape.mesh_width(), shape.mesh_height(), guide.channels };
-    std::vector<std::vector<float>> samples;
+    Channels samples;
     if (guide.width < 2 || guide.height < 2)
         for (GuideChannel& c : on_mesh.channels) {
             samples.push_back(to_mesh_pixels(shape, c.samples));
             c.samples = samples.back().data();
         }
     CollapseSequence sequence;
-    if (options.metric != Metric::volume) {
-        PlainMesh mesh(on_mesh);
-        SimplifyStats counted;
-        const auto metric = options.metric == Metric::quadric ? quadric_metric(mesh) : exact_metric(mesh);
-        if (!collapse_all(mesh, *metric, options.progress, sequence, counted))
-            return Status::failure("building was stopped");
-        if (stats)
-            *stats = counted;
-    } else {
-        Simplifier simplifier(
-            options.initial ? WorkingMesh(on_mesh, *options.initial) : WorkingMesh(on_mesh, options.parallel), options);
-        if (options.initial)
-            std::vector<Index>().swap(options.initial->twins);
-        if (!simplifier.run())
-            return Status::failure("building was stopped");
-        sequence = simplifier.take_sequence();
-        if (stats)
-            *stats = simplifier.stats();
-    }
-    const Finest finest { on_mesh, options.initial, options.parallel };
+    SimplifyStats counted;
+    status = collapse(on_mesh, options, sequence, counted);
+    if (!status)
+        return status;
+    if (stats)
+        *stats = counted;
+    const Finest finest { on_mesh, options.start.vertices() > 0 ? &options.start : nullptr, options.parallel };
     return assemble(guide.width, guide.height, finest, std::move(sequence), options.base_faces, hierarchy, bands);
 }
 

@@ -14,14 +14,14 @@ namespace pimg {
 /// What a tile's work leaves behind.
 struct TileOutput {
     std::vector<CollapseRecord> records;
-    std::vector<Detail> more;       ///< see CollapseSequence
+    std::vector<SplitPair> more;    ///< see CollapseSequence
     std::vector<Index> deferred;    ///< vertices whose neighbourhood reaches beyond the zone
     std::vector<Index> candidates;  ///< scratch
     std::size_t evaluations = 0, refused = 0;
 
     std::size_t bytes() const
     {
-        return records.capacity() * sizeof(CollapseRecord) + more.capacity() * sizeof(Detail)
+        return records.capacity() * sizeof(CollapseRecord) + more.capacity() * sizeof(SplitPair)
             + (deferred.capacity() + candidates.capacity()) * sizeof(Index);
     }
     void clear()

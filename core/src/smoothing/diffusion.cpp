@@ -54,7 +54,7 @@ private:
 /// Diffusion of the rows [begin, end).
 class BandDiffusion {
 public:
-    BandDiffusion(const Rasters& guide, const DiffusionOptions& options)
+    BandDiffusion(const Channels& guide, const DiffusionOptions& options)
         : m_guide(guide),
           m_width(options.width),
           m_height(options.height),
@@ -66,14 +66,14 @@ public:
     {
     }
 
-    void run(int begin, int end, const Rasters& picture, Rasters& result);
+    void run(int begin, int end, const Channels& picture, Channels& result);
 
 private:
     void conductances(int y);
     void load(const float* samples, int y, RowRing& ring) const;
     void step(int s, int y, int last, RowRing& from, float* to);
 
-    const Rasters& m_guide;
+    const Channels& m_guide;
     int m_width, m_height, m_steps;
     std::vector<float> m_lengths;
     RowRing m_right, m_down;  ///< conductances to the right and lower neighbours
@@ -133,7 +133,7 @@ void BandDiffusion::step(int s, int y, int last, RowRing& from, float* to)
     }
 }
 
-void BandDiffusion::run(int begin, int end, const Rasters& picture, Rasters& result)
+void BandDiffusion::run(int begin, int end, const Channels& picture, Channels& result)
 {
     // Rows further out than the steps reach do not matter; the outermost ones come out wrong and are not used.
     const int first = std::max(begin - m_steps, 0), last = std::min(end + m_steps, m_height) - 1;
@@ -164,7 +164,7 @@ void BandDiffusion::run(int begin, int end, const Rasters& picture, Rasters& res
 
 }  // namespace
 
-void diffuse(const Rasters& guide, const DiffusionOptions& options, const Rasters& picture, Rasters& result)
+void diffuse(const Channels& guide, const DiffusionOptions& options, const Channels& picture, Channels& result)
 {
     result.resize(picture.size());
     for (std::size_t c = 0; c < picture.size(); ++c)

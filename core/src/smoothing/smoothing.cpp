@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include <pimg/bands.h>
 #include <pimg/detail/diffusion.h>
 #include <pimg/detail/piece_means.h>
 
@@ -44,7 +45,7 @@ public:
     }
 
     void run();
-    void scatter(Rasters& rasters) const;
+    void scatter(Channels& channels) const;
 
 private:
     struct Sample {
@@ -85,16 +86,16 @@ template<int C>
 void FeatureSweep<C>::run()
 {
     const Index base = m_hierarchy.base_vertices();
-    const Detail* means[C];
+    const SplitPair* means[C];
     for (int c = 0; c < C; ++c) {
-        const Bands& bands = m_source.means[std::size_t(c)];
-        means[c] = bands.details.data();
+        const PieceMeans& of_channel = m_source.means[std::size_t(c)];
+        means[c] = of_channel.splits.data();
         for (Index v = 0; v < base; ++v)
-            m_values[std::size_t(v) * C + std::size_t(c)] = bands.base[v];
+            m_values[std::size_t(v) * C + std::size_t(c)] = of_channel.base[v];
     }
     for (Level i = 0; i < m_hierarchy.levels(); ++i) {
         const Stencil& k = m_hierarchy.stencils[i];
-        const Detail evidence = m_source.evidence[i];
+        const SplitPair evidence = m_source.evidence[i];
         Sample mean_t, mean_u;
         for (int c = 0; c < C; ++c) {
             mean_t.c[c] = means[c][i].t;
@@ -107,20 +108,20 @@ void FeatureSweep<C>::run()
 }
 
 template<int C>
-void FeatureSweep<C>::scatter(Rasters& rasters) const
+void FeatureSweep<C>::scatter(Channels& channels) const
 {
-    rasters.resize(C);
+    channels.resize(C);
     std::vector<float> values(m_hierarchy.vertices());
     for (int c = 0; c < C; ++c) {
         for (Index v = 0; v < m_hierarchy.vertices(); ++v)
             values[v] = at(v)[c];
-        rasters[std::size_t(c)].resize(m_hierarchy.mesh_pixels());
-        pimg::scatter(m_hierarchy, values.data(), rasters[std::size_t(c)].data());
+        channels[std::size_t(c)].resize(m_hierarchy.mesh_pixels());
+        pimg::scatter(m_hierarchy, values.data(), channels[std::size_t(c)].data());
     }
 }
 
 template<int C>
-void run_sweep(const Hierarchy& hierarchy, const SmoothingSource& source, float strength, Rasters& features)
+void run_sweep(const Hierarchy& hierarchy, const SmoothingSource& source, float strength, Channels& features)
 {
     FeatureSweep<C> sweep(hierarchy, source, kFeaturePixels * std::max(strength, kLeastStrength));
     sweep.run();
@@ -131,19 +132,19 @@ void run_sweep(const Hierarchy& hierarchy, const SmoothingSource& source, float 
 
 std::size_t SmoothingSource::memory() const
 {
-    std::size_t total = evidence.capacity() * sizeof(Detail);
-    for (const std::vector<float>& raster : samples)
-        total += raster.capacity() * sizeof(float);
-    for (const Bands& bands : means)
-        total += bands.base.capacity() * sizeof(float) + bands.details.capacity() * sizeof(Detail);
+    std::size_t total = evidence.capacity() * sizeof(SplitPair);
+    for (const std::vector<float>& channel : samples)
+        total += channel.capacity() * sizeof(float);
+    for (const PieceMeans& m : means)
+        total += m.base.capacity() * sizeof(float) + m.splits.capacity() * sizeof(SplitPair);
     return total;
 }
 
-SmoothingSource analyse_for_smoothing(const Hierarchy& hierarchy, Rasters samples)
+SmoothingSource analyse_for_smoothing(const Hierarchy& hierarchy, Channels samples)
 {
     SmoothingSource source;
     source.evidence = piece_sizes(hierarchy);
-    for (Detail& d : source.evidence)
+    for (SplitPair& d : source.evidence)
         d = { d.t * d.t, d.u * d.u };
     for (const std::vector<float>& channel : samples)
         source.means.push_back(piece_means(hierarchy, channel.data()));
@@ -151,7 +152,7 @@ SmoothingSource analyse_for_smoothing(const Hierarchy& hierarchy, Rasters sample
     return source;
 }
 
-void feature_sweep(const Hierarchy& hierarchy, const SmoothingSource& source, float strength, Rasters& features)
+void feature_sweep(const Hierarchy& hierarchy, const SmoothingSource& source, float strength, Channels& features)
 {
     switch (source.samples.size()) {
     case 1:
@@ -165,13 +166,14 @@ void feature_sweep(const Hierarchy& hierarchy, const SmoothingSource& source, fl
     }
 }
 
-void smooth(const Hierarchy& hierarchy, const SmoothingSource& source, const SmoothingOptions& options, Rasters& result)
+void smooth(const Hierarchy& hierarchy, const SmoothingSource& source, const SmoothingOptions& options,
+            Channels& result)
 {
     if (!(options.strength > 0.0f)) {
         result = source.samples;
         return;
     }
-    Rasters features, start = source.samples;
+    Channels features, start = source.samples;
     feature_sweep(hierarchy, source, options.strength, features);
     for (std::size_t c = 0; c < start.size(); ++c)
         for (std::size_t i = 0; i < start[c].size(); ++i)
@@ -182,7 +184,7 @@ void smooth(const Hierarchy& hierarchy, const SmoothingSource& source, const Smo
     diffusion.contrast = kContrastShare * std::max(options.strength, kLeastStrength);
     diffusion.steps = kSteps;
     diffusion.parallel = options.parallel;
-    Rasters guided;
+    Channels guided;
     diffuse(features, diffusion, start, guided);
     diffusion.steps = kOwnSteps;
     diffuse(guided, diffusion, guided, result);
@@ -191,7 +193,7 @@ void smooth(const Hierarchy& hierarchy, const SmoothingSource& source, const Smo
 namespace {
 
 /// Share of the detail that is amplified at each pixel of row y, see enhance(). `scale`: of the squared differences.
-std::vector<float> share_off_edges(const Rasters& smoothed, int width, int height, int y, float scale)
+std::vector<float> share_off_edges(const Channels& smoothed, int width, int height, int y, float scale)
 {
     const std::size_t n = std::size_t(width), at = std::size_t(y) * n;
     const std::size_t above = y > 0 ? at - n : at, below = y + 1 < height ? at + n : at;
@@ -210,9 +212,9 @@ std::vector<float> share_off_edges(const Rasters& smoothed, int width, int heigh
 }  // namespace
 
 void enhance(const Hierarchy& hierarchy, const SmoothingSource& source, const SmoothingOptions& options, float gain,
-             Rasters& result)
+             Channels& result)
 {
-    Rasters smoothed;
+    Channels smoothed;
     smooth(hierarchy, source, options, smoothed);
     result = source.samples;
     // Differences over two pixels, twice the gradient: their square holds the factor 4.
@@ -230,7 +232,7 @@ void enhance(const Hierarchy& hierarchy, const SmoothingSource& source, const Sm
     });
 }
 
-float noise_level(const Rasters& samples, int width, int height)
+float noise_level(const Channels& samples, int width, int height)
 {
     double sum = 0.0;
     for (const std::vector<float>& z : samples) {

@@ -18,9 +18,9 @@ constexpr Level kTogether = 16384;   ///< splits of the first stage: with fewer 
 constexpr Level kTaskSplits = 1024;  ///< at least, of several tiles if need be
 
 /// Where the value of every mesh pixel is: tile by tile, row by row.
-class Places {
+class TiledRaster {
 public:
-    explicit Places(const Hierarchy& h)
+    explicit TiledRaster(const Hierarchy& h)
         : m_width(Index(h.mesh_width())),
           m_across((m_width + kTile - 1) / kTile),
           m_down((Index(h.mesh_height()) + kTile - 1) / kTile)
@@ -42,21 +42,21 @@ private:
 };
 
 /// Stage and tile in which something was done.
-struct Turn {
-    static constexpr Index kTileOfTurn = 20, kAnyTile = (1u << kTileOfTurn) - 1, kFirstTile = kAnyTile - 1;
-    static constexpr Index kLastStage = (1u << (32 - kTileOfTurn)) - 1;
+struct StageAndTile {
+    static constexpr Index kTileBitsPacked = 20, kAnyTile = (1u << kTileBitsPacked) - 1, kFirstTile = kAnyTile - 1;
+    static constexpr Index kLastStage = (1u << (32 - kTileBitsPacked)) - 1;
 
     Index packed = kFirstTile;  ///< stage 0
 
-    Turn() = default;
-    Turn(Index stage, Index tile) : packed((stage << kTileOfTurn) | tile) { }
-    Index stage() const { return packed >> kTileOfTurn; }
+    StageAndTile() = default;
+    StageAndTile(Index stage, Index tile) : packed((stage << kTileBitsPacked) | tile) { }
+    Index stage() const { return packed >> kTileBitsPacked; }
     Index tile() const { return packed & kAnyTile; }
     /// The first stage in which `other`, a tile, may build on it.
     Index stage_for(Index other) const { return stage() + (tile() != other); }
     /// The later of two; of two in one stage, that stage and any tile. Without branches, which would be as good as
     /// random.
-    void join(Turn other)
+    void join(StageAndTile other)
     {
         const Index any = other.packed | kAnyTile;
         const bool is_before = packed < (other.packed & ~kAnyTile) || packed == other.packed;
@@ -73,41 +73,41 @@ void prefetch(const std::vector<T>& of_vertices, const Stencil& k)
 }
 
 /// When a value was last written, and last read.
-struct Use {
-    Turn write, read;
+struct LastUse {
+    StageAndTile write, read;
 };
 
-/// Gives every split its turn, in the hierarchy's order.
+/// Says when every split is done, in the hierarchy's order.
 class Scheduler {
 public:
-    explicit Scheduler(std::size_t vertices) : m_uses(vertices) { }
+    explicit Scheduler(std::size_t vertices) : m_last_uses(vertices) { }
 
-    const std::vector<Use>& uses() const { return m_uses; }
+    const std::vector<LastUse>& last_uses() const { return m_last_uses; }
 
-    Turn schedule(const Stencil& k, Index u, Index tile)
+    StageAndTile schedule(const Stencil& k, Index u, Index tile)
     {
-        Index stage = std::max(m_uses[k.s].write.stage_for(tile), m_uses[k.s].read.stage_for(tile));
+        Index stage = std::max(m_last_uses[k.s].write.stage_for(tile), m_last_uses[k.s].read.stage_for(tile));
         for (const Index v : { k.at, k.bt, k.au, k.bu })
-            stage = std::max(stage, m_uses[v].write.stage_for(tile));
-        if (stage
-            >= Turn::kLastStage) {  // all the rest one after the other: only a hierarchy made for that needs as many
-            stage = Turn::kLastStage;
-            tile = Turn::kFirstTile;
+            stage = std::max(stage, m_last_uses[v].write.stage_for(tile));
+        if (stage >= StageAndTile::
+                kLastStage) {  // all the rest one after the other: only a hierarchy made for that needs as many
+            stage = StageAndTile::kLastStage;
+            tile = StageAndTile::kFirstTile;
         }
-        const Turn now(stage, tile);
+        const StageAndTile now(stage, tile);
         for (const Index v : { k.at, k.bt, k.au, k.bu })
-            m_uses[v].read.join(now);
-        m_uses[k.s] = m_uses[u] = { now, now };
+            m_last_uses[v].read.join(now);
+        m_last_uses[k.s] = m_last_uses[u] = { now, now };
         return now;
     }
 
 private:
-    std::vector<Use> m_uses;
+    std::vector<LastUse> m_last_uses;
 };
 
-/// A split and its turn.
+/// A split and when it is done.
 struct Scheduled {
-    Turn turn;
+    StageAndTile when;
     Level split;
 };
 
@@ -120,14 +120,16 @@ std::vector<Scheduled> schedule(const Hierarchy& h, const std::vector<Index>& pl
     for (Level i = 0; i < n; ++i) {
         __builtin_prefetch(reinterpret_cast<const char*>(&h.stencils[i]) + 4096);
         if (i + kAhead < n)
-            prefetch(scheduler.uses(), h.stencils[i + kAhead]);
+            prefetch(scheduler.last_uses(), h.stencils[i + kAhead]);
         const Index u = h.base_vertices() + i;
-        all[i] = { i < kTogether ? Turn() : scheduler.schedule(h.stencils[i], u, Places::tile_of(places[u])), i };
+        all[i] = { i < kTogether ? StageAndTile()
+                                 : scheduler.schedule(h.stencils[i], u, TiledRaster::tile_of(places[u])),
+                   i };
     }
     return all;
 }
 
-/// By key(turn); those of one key stay as they were.
+/// Sorts by key(when); those of one key stay as they were.
 template<class Key>
 void sort_by(std::size_t keys, Key&& key, std::vector<Scheduled>& all)
 {
@@ -135,20 +137,20 @@ void sort_by(std::size_t keys, Key&& key, std::vector<Scheduled>& all)
     std::vector<Scheduled> from(all.size());
     from.swap(all);
     for (const Scheduled& s : from)
-        ++start[key(s.turn) + 1];
+        ++start[key(s.when) + 1];
     std::partial_sum(start.begin(), start.end(), start.begin());
     for (const Scheduled& s : from)
-        all[start[key(s.turn)]++] = s;
+        all[start[key(s.when)]++] = s;
 }
 
 /// All splits by stage, then tile, then as they were.
-std::vector<Scheduled> in_turn(const Hierarchy& h, const std::vector<Index>& places, Index tiles)
+std::vector<Scheduled> in_planned_order(const Hierarchy& h, const std::vector<Index>& places, Index tiles)
 {
     std::vector<Scheduled> all = schedule(h, places);
     sort_by(
-        tiles + 1, [tiles](Turn turn) { return std::min(turn.tile(), tiles); }, all);
+        tiles + 1, [tiles](StageAndTile when) { return std::min(when.tile(), tiles); }, all);
     sort_by(
-        Turn::kLastStage + 1, [](Turn turn) { return turn.stage(); }, all);
+        StageAndTile::kLastStage + 1, [](StageAndTile when) { return when.stage(); }, all);
     return all;
 }
 
@@ -158,8 +160,8 @@ std::vector<SweepTask> tasks_of(const std::vector<Scheduled>& all)
     std::vector<SweepTask> tasks;
     std::size_t before = 0;  // tasks of earlier stages
     for (Level i = 0; i < Level(all.size()); ++i) {
-        const bool fresh_stage = i == 0 || all[i].turn.stage() != all[i - 1].turn.stage();
-        const bool fresh_tile = fresh_stage || all[i].turn.tile() != all[i - 1].turn.tile();
+        const bool fresh_stage = i == 0 || all[i].when.stage() != all[i - 1].when.stage();
+        const bool fresh_tile = fresh_stage || all[i].when.tile() != all[i - 1].when.tile();
         if (fresh_stage)
             before = tasks.size();
         if (fresh_stage || (fresh_tile && i - tasks.back().first >= kTaskSplits))
@@ -173,14 +175,14 @@ std::vector<SweepTask> tasks_of(const std::vector<Scheduled>& all)
 
 SweepPlan::SweepPlan(const Hierarchy& h, const ParallelFor& parallel)
 {
-    const Places grid(h);
+    const TiledRaster grid(h);
     if (grid.count() > 4 * h.mesh_pixels() + kTile * kTile) {  // tiles would be all but empty
-        *this = as_it_is(h);
+        *this = unplanned(h);
         return;
     }
     std::vector<Index> places(h.vertices());
     in_batches(parallel, places.size(), [&](std::size_t v) { places[v] = grid.of(h.pixels[v]); });
-    const std::vector<Scheduled> all = in_turn(h, places, grid.tiles());
+    const std::vector<Scheduled> all = in_planned_order(h, places, grid.tiles());
     m_levels = h.levels();
     m_places = grid.count();
     m_base.assign(places.begin(), places.begin() + h.base_vertices());
@@ -203,10 +205,10 @@ SweepPlan::SweepPlan(const Hierarchy& h, const ParallelFor& parallel)
     });
 }
 
-SweepPlan SweepPlan::as_it_is(const Hierarchy& hierarchy)
+SweepPlan SweepPlan::unplanned(const Hierarchy& hierarchy)
 {
     SweepPlan plan;
-    plan.m_as_it_is = &hierarchy;
+    plan.m_unplanned = &hierarchy;
     plan.m_levels = hierarchy.levels();
     plan.m_places = hierarchy.vertices();
     plan.m_base.resize(hierarchy.base_vertices());
@@ -217,7 +219,7 @@ SweepPlan SweepPlan::as_it_is(const Hierarchy& hierarchy)
 
 std::vector<Detail> SweepPlan::in_order(const std::vector<Detail>& details, const ParallelFor& parallel) const
 {
-    if (m_as_it_is != nullptr)
+    if (m_unplanned != nullptr)
         return details;
     std::vector<Detail> ordered(details.size());
     in_batches(parallel, details.size(), [&](std::size_t j) {
@@ -254,12 +256,12 @@ void SweepPlan::for_splits(const ParallelFor& parallel, const std::function<void
 
 void SweepPlan::scatter(const Hierarchy& h, const float* values, float* samples, const ParallelFor& parallel) const
 {
-    if (m_as_it_is != nullptr) {
+    if (m_unplanned != nullptr) {
         pimg::scatter(h, values, samples, parallel);
         return;
     }
     constexpr std::size_t kRows = 16;
-    const Places places(h);
+    const TiledRaster places(h);
     const Index width = Index(h.mesh_width()), height = Index(h.mesh_height());
     run(parallel, (height + kRows - 1) / kRows, [&](std::size_t task) {
         for (Index y = Index(task * kRows); y < std::min(height, Index((task + 1) * kRows)); ++y)

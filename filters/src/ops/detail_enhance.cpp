@@ -110,7 +110,7 @@ std::vector<float> enhanced(const ProgressiveImage::Data& data, int channel, con
 }
 
 bool by_position(ProgressiveImage::Data& data, const DetailEnhanceOptions& options, const ParallelFor& parallel,
-                 Rasters& results, std::string& error)
+                 Channels& results, std::string& error)
 {
     const Level levels = data.hierarchy.levels();
     Curve curve;
@@ -131,7 +131,7 @@ bool by_position(ProgressiveImage::Data& data, const DetailEnhanceOptions& optio
 }
 
 bool by_strength(ProgressiveImage::Data& data, const DetailEnhanceOptions& options, const ParallelFor& parallel,
-                 Rasters& results, std::string& error)
+                 Channels& results, std::string& error)
 {
     const DetailEnhanceOptions defaults;
     if (options.from != defaults.from || options.to != defaults.to || !options.curve.empty()) {
@@ -162,7 +162,7 @@ bool on_hierarchy::detail_enhance(ImageBuf& dst, const ProgressiveImage& src, co
         ProgressiveImage::Data& data = *src.data();
         const ParallelFor parallel = pool_loop(nthreads);
         const bool by_contrast = options.strength >= 0.0f || options.noise >= 0.0f || options.log;
-        Rasters results;
+        Channels results;
         std::string error;
         if (!(by_contrast ? by_strength : by_position)(data, options, parallel, results, error)) {
             set_error(dst, error);

@@ -32,7 +32,7 @@ std::vector<float> lowpass(const Hierarchy& hierarchy, const Bands& bands, Level
 }
 
 bool by_position(ProgressiveImage::Data& data, const FeatureLowpassOptions& options, const ParallelFor& parallel,
-                 Rasters& results, std::string& error)
+                 Channels& results, std::string& error)
 {
     if (options.log) {
         error = "log: expected without splits and fraction";
@@ -49,7 +49,7 @@ bool by_position(ProgressiveImage::Data& data, const FeatureLowpassOptions& opti
 }
 
 void by_strength(ProgressiveImage::Data& data, const FeatureLowpassOptions& options, const ParallelFor& parallel,
-                 Rasters& results)
+                 Channels& results)
 {
     const SmoothingData& smoothing = data.smoothing(options.log);
     SmoothingOptions smoothing_options;
@@ -74,7 +74,7 @@ bool on_hierarchy::feature_lowpass(ImageBuf& dst, const ProgressiveImage& src, c
         ProgressiveImage::Data& data = *src.data();
         const ParallelFor parallel = pool_loop(nthreads);
         const bool positional = options.splits >= 0 || options.fraction >= 0.0f;
-        Rasters results;
+        Channels results;
         std::string error;
         if (!positional) {
             by_strength(data, options, parallel, results);

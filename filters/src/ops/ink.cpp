@@ -20,8 +20,8 @@ namespace {
 bool draw(ProgressiveImage::Data& data, const InkOptions& options, const ParallelFor& parallel,
           std::vector<float>& paper, std::string& error)
 {
-    OwnedPlanes eye;
-    if (!check_strokes_name(options.strokes, error) || !eye_planes(data, parallel, eye, error))
+    OwnedChannels eye;
+    if (!check_strokes_name(options.strokes, error) || !eye_channels(data, parallel, eye, error))
         return false;
     const DirectionField field(eye.view(), parallel);
     PenSettings settings;

@@ -33,15 +33,15 @@ bool on_hierarchy::mosaic(ImageBuf& dst, const ProgressiveImage& src, const Mosa
             set_error(dst, status.error());
             return false;
         }
-        OwnedPlanes planes = stored_planes(data);
+        OwnedChannels picture = stored_channels(data);
         std::vector<float*> channels;
-        for (std::vector<float>& channel : planes.channels)
+        for (std::vector<float>& channel : picture.channels)
             channels.push_back(channel.data());
         lay_mosaic(tile(mesh, parallel), mesh.size(), { options.grout, options.bevel, options.relief, parallel }, grout,
                    channels);
-        for (std::vector<float>& channel : planes.channels)
+        for (std::vector<float>& channel : picture.channels)
             crop_to_picture(data.hierarchy, channel);
-        write_channels(dst, data, roi, parallel, planes.channels, Specials::replaced);
+        write_channels(dst, data, roi, parallel, picture.channels, Specials::replaced);
         return true;
     });
 }

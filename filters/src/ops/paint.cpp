@@ -21,13 +21,13 @@ namespace {
 /// What the options name, loaded.
 struct Studio {
     Brush brush;
-    OwnedPlanes canvas;           ///< mesh-sized
+    OwnedChannels canvas;         ///< mesh-sized
     bool on_the_picture = false;  ///< the canvas is the source itself
     std::vector<float> detail;    ///< mesh-sized, or empty
 };
 
-/// A picture of another size as planes over the mesh.
-bool fitted(const std::string& filename, const ProgressiveImage::Data& data, int channels, OwnedPlanes& planes,
+/// A picture of another size as channels over the mesh.
+bool fitted(const std::string& filename, const ProgressiveImage::Data& data, int channels, OwnedChannels& picture,
             std::string& error)
 {
     ImageBuf file, resized;
@@ -41,8 +41,8 @@ bool fitted(const std::string& filename, const ProgressiveImage::Data& data, int
         error = "\"" + filename + "\": " + resized.geterror();
         return false;
     }
-    planes.width = data.hierarchy.mesh_width();
-    planes.height = data.hierarchy.mesh_height();
+    picture.width = data.hierarchy.mesh_width();
+    picture.height = data.hierarchy.mesh_height();
     for (int c = 0; c < channels; ++c) {
         std::vector<float> samples(data.spec.image_pixels());
         const int from = std::min(c, file.nchannels() - 1);
@@ -50,7 +50,7 @@ bool fitted(const std::string& filename, const ProgressiveImage::Data& data, int
                            samples.data());
         for (float& sample : samples)
             sample = std::isfinite(sample) ? sample : 0.0f;
-        planes.channels.push_back(to_mesh_pixels(data.hierarchy, samples.data()));
+        picture.channels.push_back(to_mesh_pixels(data.hierarchy, samples.data()));
     }
     return true;
 }
@@ -87,7 +87,7 @@ bool load_canvas(const PaintOptions& options, const ProgressiveImage::Data& data
     studio.on_the_picture = options.canvas.empty();
     std::vector<float> colour;
     if (studio.on_the_picture) {
-        studio.canvas = stored_planes(data);
+        studio.canvas = stored_channels(data);
     } else if (parse_colour(options.canvas, data.colour.count(), colour)) {
         studio.canvas = { data.hierarchy.mesh_width(), data.hierarchy.mesh_height(), {} };
         for (int c = 0; c < data.colour.count(); ++c)
@@ -108,7 +108,7 @@ bool load(const PaintOptions& options, const ProgressiveImage::Data& data, Studi
     if (!check_strokes_name(options.strokes, error) || !load_brush(options.brush, studio.brush, error)
         || !load_canvas(options, data, studio, error))
         return false;
-    OwnedPlanes detail;
+    OwnedChannels detail;
     if (!options.detail.empty()) {
         if (!fitted(options.detail, data, 1, detail, error)) {
             error = "detail: " + error;
@@ -149,10 +149,10 @@ ShownColors shown(ShownColors colors, const ProgressiveImage::Data& data)
 bool paint_canvas(ProgressiveImage::Data& data, const PaintOptions& options, const ParallelFor& parallel,
                   Studio& studio, std::string& error)
 {
-    OwnedPlanes eye;
-    if (!eye_planes(data, parallel, eye, error))
+    OwnedChannels eye;
+    if (!eye_channels(data, parallel, eye, error))
         return false;
-    const Planes guides = eye.view();
+    const ChannelsView guides = eye.view();
     const DirectionField field(guides, parallel);
     const StrokeOptions planning = stroke_options(options, studio, parallel);
     Strokes strokes;
@@ -160,7 +160,7 @@ bool paint_canvas(ProgressiveImage::Data& data, const PaintOptions& options, con
     error = status.error();
     if (!status)
         return false;
-    const OwnedPlanes picture = stored_planes(data);
+    const OwnedChannels picture = stored_channels(data);
     const ShownColors colors = stroke_colors(strokes, picture.view(), guides, parallel);
     if (!write_strokes(options.strokes, strokes, shown(colors, data), options.opacity, "", error))
         return false;
@@ -174,7 +174,7 @@ bool paint_canvas(ProgressiveImage::Data& data, const PaintOptions& options, con
     settings.jitter_color = options.jitter_color;
     settings.edges = &guides;
     settings.crossing = planning.crossing;
-    const Planes ground = picture.view();
+    const ChannelsView ground = picture.view();
     settings.ground = studio.on_the_picture ? nullptr : &ground;
     settings.parallel = parallel;
     paint_strokes(strokes, colors, studio.brush, settings, canvas);

@@ -34,11 +34,12 @@ float stored_scale(const ProgressiveImage::Data& data)
 
 /// Logarithms of the channels, each at most some stops from the luminance, which the guide has cleaned of what has
 /// none.
-OwnedPlanes log_planes(const ProgressiveImage::Data& data, const LogLuminance& luminance, const ParallelFor& parallel)
+OwnedChannels log_channels(const ProgressiveImage::Data& data, const LogLuminance& luminance,
+                           const ParallelFor& parallel)
 {
     const int width = data.source.spec().width, height = data.source.spec().height;
     const std::size_t pixels = std::size_t(width) * std::size_t(height);
-    OwnedPlanes planes { width, height, std::vector<std::vector<float>>(3, std::vector<float>(pixels)) };
+    OwnedChannels picture { width, height, Channels(3, std::vector<float>(pixels)) };
     for_rows(parallel, 0, height, [&](int y) {
         const std::size_t first = std::size_t(y) * std::size_t(width);
         std::vector<float> rgb(3 * std::size_t(width));
@@ -49,60 +50,60 @@ OwnedPlanes log_planes(const ProgressiveImage::Data& data, const LogLuminance& l
             for (std::size_t c = 0; c < 3; ++c) {
                 const float ratio = light > 0.0f ? rgb[3 * x + c] / light : 1.0f;
                 const float tint = ratio > 0.0f ? float(elementary::log2(double(ratio))) : -kMostStopsOfColour;
-                planes.channels[c][first + x] =
+                picture.channels[c][first + x] =
                     kUnitsToAStop * (stops + std::clamp(tint, -kMostStopsOfColour, kMostStopsOfColour));
             }
         }
     });
-    return planes;
+    return picture;
 }
 
-void to_mesh_size(const Hierarchy& hierarchy, OwnedPlanes& planes)
+void to_mesh_size(const Hierarchy& hierarchy, OwnedChannels& picture)
 {
-    for (std::vector<float>& channel : planes.channels)
+    for (std::vector<float>& channel : picture.channels)
         channel = to_mesh_pixels(hierarchy, channel.data());
-    planes.width = hierarchy.mesh_width();
-    planes.height = hierarchy.mesh_height();
+    picture.width = hierarchy.mesh_width();
+    picture.height = hierarchy.mesh_height();
 }
 
 }  // namespace
 
-Planes OwnedPlanes::view() const
+ChannelsView OwnedChannels::view() const
 {
-    Planes planes { width, height, {} };
+    ChannelsView picture { width, height, {} };
     for (const std::vector<float>& channel : channels)
-        planes.channels.push_back(channel.data());
-    return planes;
+        picture.channels.push_back(channel.data());
+    return picture;
 }
 
-OwnedPlanes stored_planes(const ProgressiveImage::Data& data)
+OwnedChannels stored_channels(const ProgressiveImage::Data& data)
 {
-    OwnedPlanes planes { data.spec.width, data.spec.height, {} };
+    OwnedChannels picture { data.spec.width, data.spec.height, {} };
     for (int c = 0; c < data.colour.count(); ++c)
-        planes.channels.push_back(channel_samples(data, data.colour.channel(c)));
-    to_mesh_size(data.hierarchy, planes);
-    return planes;
+        picture.channels.push_back(channel_samples(data, data.colour.channel(c)));
+    to_mesh_size(data.hierarchy, picture);
+    return picture;
 }
 
-bool eye_planes(ProgressiveImage::Data& data, const ParallelFor& parallel, OwnedPlanes& planes, std::string& error)
+bool eye_channels(ProgressiveImage::Data& data, const ParallelFor& parallel, OwnedChannels& picture, std::string& error)
 {
     if (data.stats.guide == "log") {
         const LogBands* bands = data.log_bands(parallel, error);
         if (bands == nullptr)
             return false;
-        planes = log_planes(data, bands->luminance, parallel);
-        to_mesh_size(data.hierarchy, planes);
+        picture = log_channels(data, bands->luminance, parallel);
+        to_mesh_size(data.hierarchy, picture);
         return true;
     }
-    planes = stored_planes(data);
+    picture = stored_channels(data);
     const float scale = stored_scale(data);
-    for (std::vector<float>& channel : planes.channels)
+    for (std::vector<float>& channel : picture.channels)
         for (float& sample : channel)
             sample = std::clamp(sample * scale, -1024.0f, 1024.0f);
     return true;
 }
 
-std::vector<float> darkness(const ProgressiveImage::Data& data, const OwnedPlanes& eye)
+std::vector<float> darkness(const ProgressiveImage::Data& data, const OwnedChannels& eye)
 {
     const std::size_t pixels = eye.channels[0].size();
     std::vector<float> tones(pixels, 0.0f);

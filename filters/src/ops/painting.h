@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What paint, mosaic and ink share: planes of the mesh's size and a picture's colours as the eye tells them apart.
+// What paint, mosaic and ink share: channels of the mesh's size and a picture's colours as the eye tells them apart.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include <OpenImageIO/imagebuf.h>
-#include <pimg/direction.h>
+#include <pimg/channels.h>
 #include <pimg/stroke_file.h>
 
 #include "source/progressive_image_data.h"
@@ -14,23 +14,24 @@
 namespace pimg {
 
 /// Channels that own their samples.
-struct OwnedPlanes {
+struct OwnedChannels {
     int width = 0, height = 0;
-    std::vector<std::vector<float>> channels;
+    Channels channels;
 
-    Planes view() const;
+    ChannelsView view() const;
 };
 
 /// The colour channels of the picture as stored, over the mesh's pixels.
-OwnedPlanes stored_planes(const ProgressiveImage::Data& data);
+OwnedChannels stored_channels(const ProgressiveImage::Data& data);
 
 /// Up to three channels in steps of an 8-bit picture. Of a log guide, whose picture holds light: the logarithm, so that
 /// shadows count as lights do, 1/6 of the range to a stop. Else the samples as stored, 256 to an integer format's range
 /// or to the brightest but a thousandth.
-bool eye_planes(ProgressiveImage::Data& data, const ParallelFor& parallel, OwnedPlanes& planes, std::string& error);
+bool eye_channels(ProgressiveImage::Data& data, const ParallelFor& parallel, OwnedChannels& picture,
+                  std::string& error);
 
 /// Darkness of every mesh pixel as a display shows the picture: 1 is black, 0 white.
-std::vector<float> darkness(const ProgressiveImage::Data& data, const OwnedPlanes& eye);
+std::vector<float> darkness(const ProgressiveImage::Data& data, const OwnedChannels& eye);
 
 /// A colour: one word (black, white, grey), numbers "0.2" or "0.9,0.8,0.7" in the picture's units. False if it is none.
 bool parse_colour(const std::string& text, int channels, std::vector<float>& values);

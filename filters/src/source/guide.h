@@ -8,6 +8,7 @@
 
 #include <OpenImageIO/imagebuf.h>
 
+#include <pimg/channels.h>
 #include <pimg/colour.h>
 #include <pimg/types.h>
 
@@ -21,12 +22,6 @@ struct SpecialSample {
     Index pixel;
     int channel;
     float value;
-};
-
-/// A raster of one float per pixel, row-major.
-struct Raster {
-    int width = 0, height = 0;
-    std::vector<float> samples;
 };
 
 /// Replaces the samples at `holes` by the mean of the known ones around them, from the rim of each hole inwards;

@@ -204,21 +204,18 @@ Status ProgressiveImage::Data::simplify_guide(const std::vector<Raster>& channel
     if (options.metric != "volume" && options.mesh == "adaptive")
         return Status::failure("metric=" + options.metric + ": expected volume with mesh=adaptive");
     Stopwatch watch;
-    InitialMesh initial;
-    if (!find_initial_mesh(guide, parallel, progress, initial, error))
+    SimplifyOptions simplify_options;
+    if (!find_initial_mesh(guide, parallel, progress, simplify_options.start, error))
         return Status::failure(error);
     stats.sample_seconds = watch.lap();
 
-    SimplifyOptions simplify_options;
     simplify_options.base_faces = Index(options.base);
     simplify_options.metric = options.metric == "quadric" ? Metric::quadric
         : options.metric == "exact"                       ? Metric::exact
                                                           : Metric::volume;
     simplify_options.parallel = parallel;
     simplify_options.progress = progress;
-    if (initial.vertices() > 0)
-        simplify_options.initial = &initial;
-    return simplify(guide, simplify_options, hierarchy, guide_bands, &stats.engine);
+    return simplify(guide, std::move(simplify_options), hierarchy, guide_bands, &stats.engine);
 }
 
 Status ProgressiveImage::Data::adopt(const std::vector<Raster>& channels, const StoredHierarchy& stored)
@@ -261,7 +258,7 @@ std::shared_ptr<const PlannedBands> ProgressiveImage::Data::planned_log_bands(co
 {
     std::lock_guard<std::mutex> lock(m_mutex);
     if (m_log_sweeps < 2) {
-        SweepPlan plan = m_log_sweeps == 0 ? SweepPlan::as_it_is(hierarchy) : SweepPlan(hierarchy, parallel);
+        SweepPlan plan = m_log_sweeps == 0 ? SweepPlan::unplanned(hierarchy) : SweepPlan(hierarchy, parallel);
         m_planned_log = std::make_shared<const PlannedBands>(std::move(plan), *m_log->bands, parallel);
         ++m_log_sweeps;
     }

@@ -23,8 +23,6 @@ constexpr double kMostVariance = 25.0;
 /// Regions that are still chosen well from pieces: a quarter of their number. More need pixels.
 constexpr std::size_t kPiecesPerRegion = 4;
 
-using Channels = std::vector<std::vector<float>>;
-
 std::vector<bool> is_mixed(const std::vector<Index>& labels, Index count, const Channels& lab)
 {
     struct Sums {
@@ -78,19 +76,20 @@ std::shared_ptr<const RegionTree> ProgressiveImage::Data::region_tree(std::size_
     if (m_regions != nullptr && (m_regions->leaves() >= kPiecesPerRegion * regions || m_regions->leaves() == pixels))
         return m_regions;
     const Channels lab = lab_channels(source, colour, parallel);
-    RegionInput input { spec.width, spec.height, {}, nullptr };
+    ChannelsView picture { spec.width, spec.height, {} };
     for (const std::vector<float>& channel : lab)
-        input.channels.push_back(channel.data());
+        picture.channels.push_back(channel.data());
+    RegionOptions region_options;
     std::vector<Index> labels;
     auto tree = std::make_shared<RegionTree>();
     Status status;
     if (kPiecesPerRegion * regions < pixels && uniform_pieces(hierarchy, lab, labels, error)) {
-        input.pieces = &labels;
-        status = RegionTree::build(input, {}, *tree);
+        region_options.pieces = &labels;
+        status = RegionTree::build(picture, region_options, *tree);
     }
     if (status && tree->leaves() < kPiecesPerRegion * regions) {
-        input.pieces = nullptr;
-        status = RegionTree::build(input, {}, *tree);
+        region_options.pieces = nullptr;
+        status = RegionTree::build(picture, region_options, *tree);
     }
     if (!status) {
         error = status.error();

@@ -23,7 +23,7 @@ constexpr float kUnitBelowMiddle = 0x1p-10f;
 constexpr float kLargest = 0x1p100f;  ///< sums and squares of larger samples are scaled down
 constexpr float kSteep = 0x1p12f;     ///< ratio to the unit above which a^2 + 1 is a^2 in a float
 
-SignedLog find_scale(const Rasters& samples)
+SignedLog find_scale(const Channels& samples)
 {
     std::vector<float> magnitudes;
     for (const std::vector<float>& channel : samples)
@@ -34,7 +34,7 @@ SignedLog find_scale(const Rasters& samples)
     return SignedLog(std::max(middle, 0x1p-100f) * kUnitBelowMiddle);
 }
 
-int find_exponent(const Rasters& samples)
+int find_exponent(const Channels& samples)
 {
     for (const std::vector<float>& channel : samples)
         if (std::any_of(channel.begin(), channel.end(), [](float v) { return std::fabs(v) > kLargest; }))
@@ -67,9 +67,9 @@ void SignedLog::from_log(float* values, std::size_t count) const
         values[i] = std::copysign(m_unit * (powers[i] - 1.0f / powers[i]), values[i]);
 }
 
-Rasters source_channels(const ProgressiveImage::Data& data)
+Channels source_channels(const ProgressiveImage::Data& data)
 {
-    Rasters samples;
+    Channels samples;
     for (int c = 0; c < data.colour.count(); ++c)
         samples.push_back(channel_samples(data, data.colour.channel(c)));
     return samples;
@@ -78,7 +78,7 @@ Rasters source_channels(const ProgressiveImage::Data& data)
 SmoothingData prepare_smoothing(const ProgressiveImage::Data& data, bool log)
 {
     SmoothingData result;
-    Rasters samples = source_channels(data);
+    Channels samples = source_channels(data);
     result.log = log;
     if (log)
         result.scale = find_scale(samples);
@@ -107,7 +107,7 @@ float find_strength(const StrengthOptions& options, const SmoothingData& smoothi
     return smoothing.log ? kDefaultStops : std::ldexp(kDefaultStrength, -smoothing.exponent);
 }
 
-void to_picture(const Hierarchy& hierarchy, const SmoothingData& smoothing, Rasters& results)
+void to_picture(const Hierarchy& hierarchy, const SmoothingData& smoothing, Channels& results)
 {
     for (std::vector<float>& samples : results) {
         crop_to_picture(hierarchy, samples);

@@ -36,7 +36,7 @@ struct SmoothingData {
 };
 
 /// The colour channels of the source, as they are.
-Rasters source_channels(const ProgressiveImage::Data& data);
+Channels source_channels(const ProgressiveImage::Data& data);
 
 SmoothingData prepare_smoothing(const ProgressiveImage::Data& data, bool log);
 
@@ -44,6 +44,6 @@ SmoothingData prepare_smoothing(const ProgressiveImage::Data& data, bool log);
 float find_strength(const StrengthOptions& options, const SmoothingData& smoothing);
 
 /// Makes rasters of core's results ones of the picture's size, in its units.
-void to_picture(const Hierarchy& hierarchy, const SmoothingData& smoothing, Rasters& results);
+void to_picture(const Hierarchy& hierarchy, const SmoothingData& smoothing, Channels& results);
 
 }  // namespace pimg

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include <pimg/channels.h>
 #include <pimg/types.h>
 
 namespace pimg {
@@ -14,11 +15,7 @@ struct Vec2 {
     float x = 0.0f, y = 0.0f;
 };
 
-/// Channels of one picture, row-major, all of one size.
-struct Planes {
-    int width = 0, height = 0;
-    std::vector<const float*> channels;
-};
+using Planes [[deprecated("use ChannelsView")]] = ChannelsView;
 
 /// A direction without a sign at every place of a picture. Kept at half resolution as (cos 2a, sin 2a) times a
 /// certainty, because directions a and a + 180 degrees are the same and must average as such.
@@ -27,7 +24,7 @@ public:
     /// From `guides`, whose unit is about a step of an 8-bit picture. Colour edges count as much
     /// as edges of brightness: the structure tensors of all channels are added. `noise` is the
     /// gradient, in units per pixel, below which a place is flat and takes its direction from farther away.
-    DirectionField(const Planes& guides, const ParallelFor& parallel = {}, float noise = 4.0f);
+    DirectionField(const ChannelsView& guides, const ParallelFor& parallel = {}, float noise = 4.0f);
 
     /// Unit vector along the edges at `p`, which may lie outside the picture.
     Vec2 at(Vec2 p) const;

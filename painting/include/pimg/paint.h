@@ -22,10 +22,10 @@ struct PaintSettings {
     /// Edges that stop the paint, up to three channels in steps of an 8-bit picture, or null: a stroke covers a pixel
     /// as far as the pixel is on the stroke's side of the edge, and so ends exactly where the picture's edge does,
     /// anti-aliased as it is there.
-    const Planes* edges = nullptr;
+    const ChannelsView* edges = nullptr;
     /// What to show of the canvas's size and channels where strokes leave holes, or null to leave them: along edges
     /// that stop the paint a few pixels may get none. Gaps between the hairs of a brush stay.
-    const Planes* ground = nullptr;
+    const ChannelsView* ground = nullptr;
     float crossing = 14.0f;  ///< differences below this are no edge
     ParallelFor parallel;
 };

@@ -73,13 +73,13 @@ struct StrokeOptions : DabOptions {
 
 /// Plans the strokes of a painting. `guides` are up to three channels in steps of an 8-bit picture: what
 /// they tell apart, strokes keep apart.
-Status plan_strokes(const Hierarchy& hierarchy, const Planes& guides, const DirectionField& field,
+Status plan_strokes(const Hierarchy& hierarchy, const ChannelsView& guides, const DirectionField& field,
                     const StrokeOptions& options, Strokes& strokes);
 
 /// Colour of every stroke on each channel of `picture`: the mean of the samples under its middle line that are
 /// like those at its centre by `guides`. colours[c][i] is of channel c, stroke i. Never leaves the samples' range.
-std::vector<std::vector<float>> stroke_colors(const Strokes& strokes, const Planes& picture, const Planes& guides,
-                                              const ParallelFor& parallel = {});
+std::vector<std::vector<float>> stroke_colors(const Strokes& strokes, const ChannelsView& picture,
+                                              const ChannelsView& guides, const ParallelFor& parallel = {});
 
 /// A well-mixed number from another; the library's only source of chance.
 inline std::uint32_t scramble(std::uint32_t x)

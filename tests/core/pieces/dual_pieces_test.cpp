@@ -187,12 +187,10 @@ TEST(DualPieces, ShareOutThePixelsBetweenTheVerticesOfASimplerMesh)
     const int w = 40, h = 30;
     const std::vector<float> z = picture(w, h);
     const Guide guide { w, h, { { z.data() } } };
-    InitialMesh initial;
     SamplingOptions sampling;
     sampling.density = 0.25;
-    ASSERT_TRUE(sample(guide, sampling, initial).ok());
     SimplifyOptions options;
-    options.initial = &initial;
+    ASSERT_TRUE(sample(guide, sampling, options.start).ok());
     Hierarchy hierarchy;
     std::vector<Bands> bands;
     ASSERT_TRUE(simplify(guide, options, hierarchy, bands).ok());

@@ -20,7 +20,9 @@ using test::Picture;
 RegionTree tree_of(const Picture& p, const std::vector<Index>* pieces = nullptr)
 {
     RegionTree tree;
-    const Status s = RegionTree::build({ p.width, p.height, { p.samples.data() }, pieces }, {}, tree);
+    RegionOptions options;
+    options.pieces = pieces;
+    const Status s = RegionTree::build({ p.width, p.height, { p.samples.data() } }, options, tree);
     EXPECT_TRUE(s.ok()) << p.name << ": " << s.error();
     return tree;
 }
@@ -132,8 +134,8 @@ TEST(RegionTree, SeesEveryChannel)
     const Picture flat = test::make("flat", 20, 20, [](int, int) { return 50; });
     const Picture halves = test::make("halves", 20, 20, [](int x, int) { return x < 7 ? 10 : 20; });
     RegionTree tree;
-    const RegionInput input { 20, 20, { flat.samples.data(), halves.samples.data() } };
-    ASSERT_TRUE(RegionTree::build(input, {}, tree).ok());
+    const ChannelsView picture { 20, 20, { flat.samples.data(), halves.samples.data() } };
+    ASSERT_TRUE(RegionTree::build(picture, {}, tree).ok());
     const std::vector<Index> labels = tree.labels(2);
     for (std::size_t i = 0; i < labels.size(); ++i)
         EXPECT_EQ(labels[i], i % 20 < 7 ? 0u : 1u);
@@ -146,7 +148,9 @@ TEST(RegionTree, RefusesWhatIsNoPicture)
     RegionTree tree;
     EXPECT_FALSE(RegionTree::build({ 0, 4, { &sample } }, {}, tree).ok());
     EXPECT_FALSE(RegionTree::build({ 1, 1, {} }, {}, tree).ok());
-    EXPECT_FALSE(RegionTree::build({ 1, 1, { &sample }, &pieces }, {}, tree).ok());
+    RegionOptions wrong_pieces;
+    wrong_pieces.pieces = &pieces;
+    EXPECT_FALSE(RegionTree::build({ 1, 1, { &sample } }, wrong_pieces, tree).ok());
     RegionOptions stop;
     stop.progress = [](float) {
         return false;

@@ -30,7 +30,7 @@ Built build(const Guide& guide, double density, const ParallelFor& parallel = {}
     sampling.parallel = parallel;
     EXPECT_TRUE(sample(guide, sampling, b.initial).ok());
     SimplifyOptions options;
-    options.initial = &b.initial;
+    options.start = b.initial;
     options.parallel = parallel;
     const Status s = simplify(guide, options, b.hierarchy, b.bands);
     EXPECT_TRUE(s.ok()) << s.error();
@@ -169,9 +169,8 @@ TEST(Adaptive, StopsWhenAsked)
     InitialMesh initial;
     ASSERT_TRUE(sample(guide_of(p), {}, initial).ok());
     for (float at : { 0.1f, 0.6f, 0.95f }) {
-        InitialMesh copy = initial;
         SimplifyOptions options;
-        options.initial = &copy;
+        options.start = initial;
         options.progress = [=](float done) {
             return done < at;
         };
@@ -185,13 +184,26 @@ TEST(Adaptive, StopsWhenAsked)
 TEST(Adaptive, RefusesAMeshOfAnotherSize)
 {
     const Picture p = test::scene(40, 40), q = test::scene(41, 40);
-    InitialMesh initial;
-    ASSERT_TRUE(sample(guide_of(q), {}, initial).ok());
     SimplifyOptions options;
-    options.initial = &initial;
+    ASSERT_TRUE(sample(guide_of(q), {}, options.start).ok());
     Hierarchy h;
     std::vector<Bands> bands;
     EXPECT_FALSE(simplify(guide_of(p), options, h, bands).ok());
+}
+
+TEST(Adaptive, LeavesTheCallersMeshAsItWas)
+{
+    const Picture p = test::scene(40, 40);
+    SimplifyOptions options;
+    ASSERT_TRUE(sample(guide_of(p), {}, options.start).ok());
+    const InitialMesh before = options.start;
+    Hierarchy first, second;
+    std::vector<Bands> bands;
+    ASSERT_TRUE(simplify(guide_of(p), options, first, bands).ok());
+    EXPECT_EQ(options.start.corners, before.corners);
+    EXPECT_EQ(options.start.twins, before.twins);
+    ASSERT_TRUE(simplify(guide_of(p), options, second, bands).ok());
+    EXPECT_EQ(first.costs, second.costs);
 }
 
 }  // namespace

@@ -216,7 +216,7 @@ TEST(Sampling, HostileControlMaps)
             const std::vector<int> d = degrees(mesh);
             EXPECT_LE(*std::max_element(d.begin(), d.end()), kMaxDegree) << name << " " << density;
             SimplifyOptions from;
-            from.initial = &mesh;
+            from.start = mesh;
             Hierarchy h;
             std::vector<Bands> bands;
             ASSERT_TRUE(simplify(guide_of(p), from, h, bands).ok());

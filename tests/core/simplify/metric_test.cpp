@@ -137,7 +137,7 @@ TEST(Metric, OthersThanVolumeRefuseAnInitialMesh)
     for (Metric metric : { Metric::quadric, Metric::exact }) {
         SimplifyOptions options;
         options.metric = metric;
-        options.initial = &initial;
+        options.start = initial;
         Hierarchy hierarchy;
         std::vector<Bands> bands;
         const Status s = simplify(guide, options, hierarchy, bands);

@@ -55,7 +55,7 @@ struct Scene {
 };
 
 /// Channels 0..1 of one picture, its guide being the first.
-Scene build(int width, int height, const Rasters& channels)
+Scene build(int width, int height, const Channels& channels)
 {
     Scene scene;
     scene.width = width;
@@ -66,23 +66,23 @@ Scene build(int width, int height, const Rasters& channels)
     std::vector<Bands> bands;
     const Status status = simplify({ width, height, { { guide.data(), 1.0f } } }, {}, scene.hierarchy, bands);
     EXPECT_TRUE(status) << status.error();
-    Rasters samples;
+    Channels samples;
     for (const std::vector<float>& channel : channels)
         samples.push_back(to_mesh_pixels(scene.hierarchy, channel.data()));
     scene.source = analyse_for_smoothing(scene.hierarchy, samples);
     return scene;
 }
 
-Rasters smoothed(const Scene& scene, float strength, const ParallelFor& parallel = {})
+Channels smoothed(const Scene& scene, float strength, const ParallelFor& parallel = {})
 {
-    Rasters result;
+    Channels result;
     smooth(scene.hierarchy, scene.source, { strength, parallel }, result);
     return result;
 }
 
-Rasters enhanced(const Scene& scene, float strength, float gain)
+Channels enhanced(const Scene& scene, float strength, float gain)
 {
-    Rasters result;
+    Channels result;
     enhance(scene.hierarchy, scene.source, { strength, {} }, gain, result);
     return result;
 }
@@ -125,7 +125,7 @@ TEST(PieceMeans, OfBasePiecesAddUpToThePicture)
     for (const Picture& picture : awkward_pictures()) {
         const Scene scene = build(picture.width, picture.height, { picture.samples });
         const Hierarchy& h = scene.hierarchy;
-        const std::vector<Detail> sizes = piece_sizes(h);
+        const std::vector<SplitPair> sizes = piece_sizes(h);
         std::vector<double> size(h.vertices(), 1.0);
         for (Level i = h.levels(); i-- > 0;) {
             const Index s = h.splits[i].s, u = h.base_vertices() + i;
@@ -148,7 +148,7 @@ TEST(Diffusion, KeepsMeanAndRangeAndConstants)
     const std::vector<float>& picture = cartoon().source.samples[0];
     DiffusionOptions options;
     options.width = options.height = kSize;
-    Rasters result;
+    Channels result;
     diffuse({ std::vector<float>(picture.size(), 0.5f) }, options, { picture }, result);
     EXPECT_NEAR(mean(result[0]), mean(picture), 1e-6);
     const auto [low, high] = std::minmax_element(picture.begin(), picture.end());
@@ -166,7 +166,7 @@ TEST(Diffusion, ReachesAsFarAsItsSteps)
     dot[32 * 65 + 32] = 1.0f;
     for (int steps : { 1, 3, 7 }) {
         DiffusionOptions options { 65, 65, 1.0f, steps, {} };
-        Rasters result;
+        Channels result;
         diffuse({ std::vector<float>(dot.size(), 0.0f) }, options, { dot }, result);
         double variance = 0.0;
         for (int i = 0; i < 65 * 65; ++i)
@@ -183,7 +183,7 @@ TEST(Smoothing, StrengthZeroIsThePicture)
 TEST(Smoothing, RemovesTextureAndKeepsStructure)
 {
     const std::vector<float> truth = sample(structure);
-    const Rasters result = smoothed(cartoon(), 0.03f);
+    const Channels result = smoothed(cartoon(), 0.03f);
     EXPECT_GT(psnr(result[0], truth), 40.0);  // 29 dB before
     for (int line = 0; line < 3; ++line) {
         const int y = 148 + 14 * line;
@@ -203,7 +203,7 @@ TEST(Smoothing, StrongerLeavesLess)
     const Scene scene = build(kSize, kSize, { flat });
     double before = 1.0;
     for (float strength : { 0.0f, 0.005f, 0.01f, 0.02f, 0.04f }) {
-        const Rasters result = smoothed(scene, strength);
+        const Channels result = smoothed(scene, strength);
         const double left = std::pow(10.0, -psnr(result[0], std::vector<float>(flat.size(), 0.5f)) / 20.0);
         EXPECT_LT(left, before) << strength;
         before = left;
@@ -215,7 +215,7 @@ TEST(Smoothing, GreyAsThreeChannelsIsGrey)
 {
     const std::vector<float>& grey = cartoon().source.samples[0];
     const Scene colour = build(kSize, kSize, { grey, grey, grey });
-    const Rasters three = smoothed(colour, 0.02f), one = smoothed(cartoon(), 0.02f);
+    const Channels three = smoothed(colour, 0.02f), one = smoothed(cartoon(), 0.02f);
     for (int c = 0; c < 3; ++c)
         EXPECT_GT(psnr(three[std::size_t(c)], one[0]), 90.0);
 }
@@ -227,7 +227,7 @@ TEST(Smoothing, ColourEdgesDoNotBleed)
     const auto green = sample([](int x, int y) { return (x < 96 ? 0.4f : 0.5f) + texture(x, y); });
     const auto blue = sample([](int x, int y) { return 0.3f + texture(x, y); });
     const Scene scene = build(kSize, kSize, { green, red, blue });
-    const Rasters result = smoothed(scene, 0.03f);
+    const Channels result = smoothed(scene, 0.03f);
     double step = 0.0;
     for (int y = 20; y < 172; ++y)
         step += double(result[1][std::size_t(y * kSize + 94)] - result[1][std::size_t(y * kSize + 97)]) / 152.0;
@@ -240,7 +240,7 @@ TEST(Smoothing, ScalesWithThePicture)
     for (float& v : scene.source.samples[0])
         v *= 1024.0f;
     const Scene scaled { scene.hierarchy, analyse_for_smoothing(scene.hierarchy, scene.source.samples), kSize, kSize };
-    Rasters large = smoothed(scaled, 1024.0f * 0.02f);
+    Channels large = smoothed(scaled, 1024.0f * 0.02f);
     for (float& v : large[0])
         v /= 1024.0f;
     EXPECT_EQ(large, smoothed(cartoon(), 0.02f));
@@ -251,7 +251,7 @@ TEST(Smoothing, AwkwardPicturesStayFinite)
     for (const Picture& picture : awkward_pictures()) {
         const Scene scene = build(picture.width, picture.height, { picture.samples });
         for (float strength : { 1e-30f, 0.01f, 10.0f, 1e30f })
-            for (const Rasters& result : { smoothed(scene, strength), enhanced(scene, strength, 3.0f) })
+            for (const Channels& result : { smoothed(scene, strength), enhanced(scene, strength, 3.0f) })
                 for (float v : result[0])
                     EXPECT_TRUE(std::isfinite(v)) << picture.name << " " << strength;
     }
@@ -271,7 +271,7 @@ TEST(Smoothing, DoesNotDependOnThreads)
 
 TEST(Enhancement, AmplifiesTextureWithoutHalos)
 {
-    const Rasters result = enhanced(cartoon(), 0.03f, 3.0f);
+    const Channels result = enhanced(cartoon(), 0.03f, 3.0f);
     double sum = 0.0, squares = 0.0;
     for (int y = 10; y < 90; ++y)  // right of the square: noise only
         for (int x = 178; x < 190; ++x) {

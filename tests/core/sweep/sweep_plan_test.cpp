@@ -42,7 +42,7 @@ std::vector<float> plainly(const Hierarchy& h, const Bands& bands)
 void expect_same(const Hierarchy& h, const Bands& bands, const std::string& name)
 {
     const std::vector<float> expected = plainly(h, bands);
-    EXPECT_EQ(by_plan(SweepPlan::as_it_is(h), h, bands, {}), expected) << name;
+    EXPECT_EQ(by_plan(SweepPlan::unplanned(h), h, bands, {}), expected) << name;
     EXPECT_EQ(by_plan(SweepPlan(h), h, bands, {}), expected) << name;
     for (const unsigned count : { 1u, 2u, 3u, 8u }) {
         const ParallelFor parallel = test::threads(count);
@@ -68,10 +68,8 @@ TEST(SweepPlan, GivesThePixelsBetweenVertices)
 {
     const test::Picture p = test::scene(300, 280);
     const Guide guide { p.width, p.height, { { p.samples.data() } } };
-    InitialMesh initial;
-    ASSERT_TRUE(sample(guide, {}, initial).ok());
     SimplifyOptions options;
-    options.initial = &initial;
+    ASSERT_TRUE(sample(guide, {}, options.start).ok());
     Hierarchy h;
     std::vector<Bands> bands;
     ASSERT_TRUE(simplify(guide, options, h, bands).ok());

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include <pimg/channels.h>
 #include <pimg/types.h>
 
 namespace pimg {
@@ -13,7 +14,7 @@ namespace pimg {
 /// its channels, the conductance is
 ///     1 / (1 + (d / contrast)^2)^2
 struct DiffusionOptions {
-    int width = 0, height = 0;  ///< of all rasters
+    int width = 0, height = 0;  ///< of all channels
     float contrast = 0.1f;      ///< difference across which a quarter of the flow is left; > 0, in units of the guide
     int steps = 7;              ///< 1 or more; n steps reach as far as a Gaussian of variance (n^2 + n) / 6, in pixels
     ParallelFor parallel;       ///< the result does not depend on it
@@ -21,6 +22,6 @@ struct DiffusionOptions {
 
 /// Diffuses every channel of `picture`, which may be the guide itself; the conductances are those of the guide as
 /// given. Mean-preserving, and never leaves the range of the picture by more than rounding after the last step.
-void diffuse(const Rasters& guide, const DiffusionOptions& options, const Rasters& picture, Rasters& result);
+void diffuse(const Channels& guide, const DiffusionOptions& options, const Channels& picture, Channels& result);
 
 }  // namespace pimg

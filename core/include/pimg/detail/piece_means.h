@@ -6,17 +6,15 @@
 
 #include <vector>
 
-#include <pimg/bands.h>
+#include <pimg/dual_pieces.h>
 #include <pimg/hierarchy.h>
 
 namespace pimg {
 
 /// Number of pixels t and u of each split stand for. Depends on the geometry only.
-std::vector<Detail> piece_sizes(const Hierarchy& hierarchy);
+std::vector<SplitPair> piece_sizes(const Hierarchy& hierarchy);
 
-/// Means of one channel (a value per mesh pixel, row-major) over the dual pieces: `base` those of the base vertices,
-/// `details` those of t and u of each split: the means themselves, not what a prediction leaves of them. The larger a
-/// piece, the less texture its mean carries, which the value of its vertex does not have.
-Bands piece_means(const Hierarchy& hierarchy, const float* samples);
+/// Means of one channel, a value per mesh pixel, row-major.
+PieceMeans piece_means(const Hierarchy& hierarchy, const float* samples);
 
 }  // namespace pimg

@@ -33,9 +33,9 @@ public:
     /// they are.
     explicit SweepPlan(const Hierarchy& hierarchy, const ParallelFor& parallel = {});
 
-    /// No plan but the hierarchy's own order, which must stay: sweeps are plain ones. For who sweeps only once or
-    /// twice.
-    static SweepPlan as_it_is(const Hierarchy& hierarchy);
+    /// Sweeps in the hierarchy's own order, without the time and memory that making a plan takes: right when there are
+    /// only one or two sweeps. The hierarchy must outlive the result.
+    static SweepPlan unplanned(const Hierarchy& hierarchy);
 
     Level levels() const { return m_levels; }
     PlannedSplit split(Level i) const;
@@ -68,26 +68,26 @@ private:
 
     Level m_levels = 0;
     std::size_t m_places = 0;
-    const Hierarchy* m_as_it_is = nullptr;
-    std::vector<Index> m_base;   ///< places of the base vertices
-    std::vector<Level> m_order;  ///< number of each split in the hierarchy
+    const Hierarchy* m_unplanned = nullptr;  ///< whose order is used as it is; null: that of m_splits
+    std::vector<Index> m_base;               ///< places of the base vertices
+    std::vector<Level> m_order;              ///< number of each split in the hierarchy
     std::unique_ptr<PlannedSplit[]> m_splits;
     std::vector<SweepTask> m_tasks;
 };
 
 inline PlannedSplit SweepPlan::split(Level i) const
 {
-    if (m_as_it_is == nullptr)
+    if (m_unplanned == nullptr)
         return m_splits[i];
-    const Stencil& k = m_as_it_is->stencils[i];
-    return { k.s, k.at, k.bt, k.au, k.bu, m_as_it_is->base_vertices() + i, k.wat, k.wbt, k.wau, k.wbu };
+    const Stencil& k = m_unplanned->stencils[i];
+    return { k.s, k.at, k.bt, k.au, k.bu, m_unplanned->base_vertices() + i, k.wat, k.wbt, k.wau, k.wbu };
 }
 
 template<class DetailOf>
 void SweepPlan::sweep(Level first, Level last, float* values, DetailOf&& detail_of) const
 {
-    if (m_as_it_is != nullptr) {
-        sweep_splits(*m_as_it_is, first, last, values, detail_of);
+    if (m_unplanned != nullptr) {
+        sweep_splits(*m_unplanned, first, last, values, detail_of);
         return;
     }
     constexpr std::ptrdiff_t kAhead = 2048;  // bytes: past the end of a page, where the processor's own guesses stop

@@ -139,12 +139,12 @@ int QuadricMetric::candidates(Index t, Index u, Point* positions) const
     const double xx = s.xx + pull, yy = s.yy + pull;
     // The step from the midpoint, held to the sides that either end is on.
     double rx = s.rx - s.xx * mx - s.xy * my, ry = s.ry - s.xy * mx - s.yy * my;
-    const auto held = [](bool first, bool second, int a, int b, double middle) {
+    const auto side_or = [](bool first, bool second, int a, int b, double middle) {
         return first ? double(a) * kPixel : second ? double(b) * kPixel : middle;
     };
     const bool vt = m_mesh.on_vertical_side(t), vu = m_mesh.on_vertical_side(u);
     const bool ht = m_mesh.on_horizontal_side(t), hu = m_mesh.on_horizontal_side(u);
-    const double hx = held(vt, vu, pt.x, pu.x, mx), hy = held(ht, hu, pt.y, pu.y, my);
+    const double hx = side_or(vt, vu, pt.x, pu.x, mx), hy = side_or(ht, hu, pt.y, pu.y, my);
     double dx = hx - mx, dy = hy - my;
     const bool fixed_x = vt || vu, fixed_y = ht || hu;
     if (!fixed_x && !fixed_y) {
