@@ -100,12 +100,12 @@ private:
     Plan plan(Index v);
     void consider(Index t, Index u, Plan& best);
     void enqueue(Index v, const Plan& plan);
-    bool find_star(Index t, Index u, Star& star) const;
+    bool find_star(Index t, Index u, MergedRing& star) const;
     bool is_on_sides(Index v, Point p) const;
-    bool keeps_shape(const Star& star, Point p) const;
+    bool keeps_shape(const MergedRing& star, Point p) const;
     void collapse(Index t, const Plan& plan);
-    void record(Index t, Index u, Point p, const Star& star, float order);
-    void update_rings(Index t, Index u, const Star& star);
+    void record(Index t, Index u, Point p, const MergedRing& star, float order);
+    void update_rings(Index t, Index u, const MergedRing& star);
 
     PlainMesh& m_mesh;
     CollapseMetric& m_metric;
@@ -165,7 +165,7 @@ Collapser::Plan Collapser::plan(Index v)
 
 void Collapser::consider(Index t, Index u, Plan& best)
 {
-    Star star;
+    MergedRing star;
     if (!find_star(t, u, star))
         return;
     Point positions[CollapseMetric::kMaxCandidates];
@@ -182,7 +182,7 @@ void Collapser::consider(Index t, Index u, Plan& best)
 }
 
 /// False when the link condition (ghost counted) forbids the collapse or a ring would grow too large.
-bool Collapser::find_star(Index t, Index u, Star& star) const
+bool Collapser::find_star(Index t, Index u, MergedRing& star) const
 {
     const Ring &rt = m_mesh.rings[t], &ru = m_mesh.rings[u];
     const int dt = m_mesh.degrees[t], du = m_mesh.degrees[u];
@@ -213,7 +213,7 @@ bool Collapser::is_on_sides(Index v, Point p) const
     return (from.x == p.x || !m_mesh.on_vertical_side(v)) && (from.y == p.y || !m_mesh.on_horizontal_side(v));
 }
 
-bool Collapser::keeps_shape(const Star& star, Point p) const
+bool Collapser::keeps_shape(const MergedRing& star, Point p) const
 {
     for (int i = 0; i < star.degree; ++i) {
         const Index a = star.ring[i], b = star.ring[i + 1 < star.degree ? i + 1 : 0];
@@ -236,7 +236,7 @@ void Collapser::collapse(Index t, const Plan& plan)
     Index u = plan.u;
     if (plan.p == m_mesh.points[u])
         std::swap(t, u);  // the one that stays where it is keeps its number
-    Star star;
+    MergedRing star;
     find_star(t, u, star);
     float order =
         std::max({ float(std::min(plan.cost, double(std::numeric_limits<float>::max()))), m_orders[t], m_orders[u] });
@@ -254,7 +254,7 @@ void Collapser::collapse(Index t, const Plan& plan)
             enqueue(star.ring[i], this->plan(star.ring[i]));
 }
 
-void Collapser::record(Index t, Index u, Point p, const Star& star, float order)
+void Collapser::record(Index t, Index u, Point p, const MergedRing& star, float order)
 {
     Point around[kMaxDegree];
     for (int i = 0; i < star.degree; ++i)
@@ -272,7 +272,7 @@ void Collapser::record(Index t, Index u, Point p, const Star& star, float order)
         m_sequence.more.push_back({ m_mesh.z[c][t], m_mesh.z[c][u] });
 }
 
-void Collapser::update_rings(Index t, Index u, const Star& star)
+void Collapser::update_rings(Index t, Index u, const MergedRing& star)
 {
     for (int i = 0; i < star.degree; ++i) {
         const Index q = star.ring[i];

@@ -31,7 +31,7 @@ struct PlainMesh {
 };
 
 /// The ring that merging t and u would have: from vr around t to vl, then around u.
-struct Star {
+struct MergedRing {
     Index ring[kMaxDegree];
     int degree = 0;
     int vl = 0;  ///< place of vl; vr is first
