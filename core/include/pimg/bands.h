@@ -16,9 +16,9 @@ struct Detail {
     float t, u;
 };
 
-/// One channel on a hierarchy. `base[v]` are the values of the base vertices,
-/// `details[i]` belong to split i. The residual is the finest band: what the Gouraud image of the finest mesh
-/// leaves of the channel, per mesh pixel; empty (all 0) when every pixel is a vertex.
+/// One channel on a hierarchy. `base[v]` is the value of base vertex v, and `details[i]` belongs to split i. `residual`
+/// is the finest band: for each mesh pixel, the channel minus the Gouraud image of the finest mesh. It is empty, which
+/// means 0 everywhere, when every pixel is a vertex.
 struct Bands {
     std::vector<float> base;
     std::vector<Detail> details;
@@ -51,7 +51,7 @@ std::vector<float> values_at(const Hierarchy& hierarchy, const Bands& bands, Lev
 template<class Gain>
 void sweep(const Hierarchy& hierarchy, const Bands& bands, float* values, Level levels, Gain&& gain);
 
-/// The part of it for the splits [first, last): `values` holds the vertices of level `first` and receives those of
+/// The part of sweep() for the splits [first, last): `values` holds the vertices of level `first` and receives those of
 /// level `last`; detail_of(i) returns the detail of split i.
 template<class DetailOf>
 void sweep_splits(const Hierarchy& hierarchy, Level first, Level last, float* values, DetailOf&& detail_of);
@@ -63,7 +63,7 @@ void synthesise(const Hierarchy& hierarchy, const Bands& bands, float* samples, 
 /// pixels between them: the Gouraud image of the finest mesh.
 void scatter(const Hierarchy& hierarchy, const float* values, float* samples, const ParallelFor& parallel = {});
 
-/// The second half of it.
+/// The second half of scatter(): interpolates the pixels between the vertices. `samples` holds those of the vertices.
 void interpolate_between(const Hierarchy& hierarchy, float* samples, const ParallelFor& parallel = {});
 
 /// Adds gain(pixel, residual) to the samples of all mesh pixels; nothing without a residual.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The geometry of a progressive image (paper, section 3.3): base mesh + vertex splits, with the
-// prediction stencil of each. No intensities: those are Bands. Immutable once built and
-// shareable between threads.
+// The geometry of a progressive image (paper, section 3.3): the base mesh, the vertex splits that refine it, and
+// the prediction stencil of each split. It holds no intensities; those are in Bands (bands.h). It does not change
+// once built, so threads may share it.
 #pragma once
 
 #include <cstddef>
@@ -34,8 +34,8 @@ struct Stencil {
     float wat, wbt, wau, wbu;
 };
 
-/// A pixel that is no vertex of the finest mesh: the mesh pixels of its face's corners there, the smallest
-/// first, and the barycentric weights of the other two.
+/// A pixel that is not a vertex of the finest mesh. a, b and c are the mesh pixels of the corners of the face that
+/// covers it, the smallest first; wb and wc are the barycentric weights of b and c.
 ///     interpolation = z[a] + wb (z[b] - z[a]) + wc (z[c] - z[a])
 struct PixelStencil {
     Index pixel, a, b, c;
@@ -78,14 +78,17 @@ public:
     std::size_t memory() const;
 };
 
-/// The mesh M_i with its topology: replays the first `level` splits. `coarse`, if given, receives where the
-/// split vertex s of each was before it. Fails only on a damaged hierarchy.
+/// Makes the mesh M_i of level i = `level`, with its topology, by replaying the first `level` splits. `coarse`, if not
+/// null, receives for each of these splits the position of the vertex s before the split. Fails only on a damaged
+/// hierarchy.
 Status refine(const Hierarchy& hierarchy, Level level, Mesh& mesh, std::vector<Point>* coarse = nullptr);
 
-/// Fills `between` from all else: for who reads a hierarchy from a file. Fails only on a damaged hierarchy.
+/// Computes `between` from the other members. A file does not store it, so call this after reading a hierarchy from
+/// one. Fails only on a damaged hierarchy.
 Status find_pixels_between(Hierarchy& hierarchy);
 
-/// Checks numbers, stencils and, by replaying every split, topology. Slow: for tests and tools.
+/// Checks all numbers and stencils, and the topology by replaying every split. It is slow, and meant for tests and
+/// tools.
 Status validate(const Hierarchy& hierarchy);
 
 }  // namespace pimg

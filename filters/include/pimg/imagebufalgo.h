@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Filters on progressive images, in the manner of OpenImageIO's ImageBufAlgo. Rules common to all functions; what is
-// said at each function below are exceptions and additions.
+// Filters on progressive images, in the manner of OpenImageIO's ImageBufAlgo. The rules here hold for all functions. The
+// comment of a function says what it adds to them and where it differs.
 //
 // Forms     Each filter can be called in four forms. The result goes to `dst` or is returned; the source is a picture,
 //           whose hierarchy is then built with default BuildOptions, or a ProgressiveImage, so that further parameters

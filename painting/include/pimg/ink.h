@@ -18,8 +18,8 @@ struct PenSettings {
     ParallelFor parallel;
 };
 
-/// Plans the lines. `darkness` is 0 (paper) .. 1 (black), row-major, size of the picture; anything else counts as the
-/// nearer. The lines start at the dual pieces, coarse to fine; each keeps the distance to the others that its width
+/// Plans the lines. `darkness` holds one value per pixel, row-major, from 0 (paper) to 1 (black); values outside count
+/// as the nearer end of the range. The lines start at the dual pieces, coarse to fine; each keeps the distance to the others that its width
 /// over the darkness asks for, and ends where the darkness changes.
 Status plan_ink(const Hierarchy& hierarchy, const float* darkness, const DirectionField& field,
                 const PenSettings& options, Strokes& lines);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Puts strokes on a canvas.
+// Paints planned strokes (strokes.h) on a canvas with a brush (brush.h).
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Strokes for other programs.
+// Writes strokes as SVG or JSON text, for other programs.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace pimg {
 
-/// Colours of strokes as shown: colors[c][i] of stroke i, channel c = red, green, blue; encoded sRGB, 0..1, what is
-/// outside being clipped. One channel is grey, none black.
+/// Colours of strokes as shown: colors[c][i] is channel c (red, green, blue) of stroke i, encoded as sRGB, 0..1. Values
+/// outside are clipped. With one channel the strokes are grey, with none they are black.
 using ShownColors = std::vector<std::vector<float>>;
 
 /// A drawing: every stroke is a path in the order of painting, round at the ends, pixel (0, 0) being the unit

@@ -81,7 +81,7 @@ Status plan_strokes(const Hierarchy& hierarchy, const ChannelsView& guides, cons
 std::vector<std::vector<float>> stroke_colors(const Strokes& strokes, const ChannelsView& picture,
                                               const ChannelsView& guides, const ParallelFor& parallel = {});
 
-/// A well-mixed number from another; the library's only source of chance.
+/// Mixes the bits of a number: equal numbers give equal results. It is the library's only source of randomness.
 inline std::uint32_t scramble(std::uint32_t x)
 {
     x = (x ^ (x >> 16)) * 0x7feb352du;
