@@ -7,6 +7,7 @@
 #include <numeric>
 #include <queue>
 
+#include <pimg/detail/elementary.h>
 #include <pimg/dual_pieces.h>
 
 #include "pieces/region_graph.h"
@@ -25,7 +26,8 @@ void smooth(std::vector<float>& samples, std::size_t width, std::size_t height, 
     const int reach = int(std::ceil(3.0f * sigma));
     std::vector<float> kernel(std::size_t(2 * reach + 1));
     for (int k = -reach; k <= reach; ++k)
-        kernel[std::size_t(k + reach)] = std::exp(-0.5f * float(k * k) / (sigma * sigma));
+        kernel[std::size_t(k + reach)] =
+            float(elementary::exp2(double(-0.5f * float(k * k) / (sigma * sigma)) / elementary::kLn2));
     const float total = std::accumulate(kernel.begin(), kernel.end(), 0.0f);
     for (float& k : kernel)
         k /= total;

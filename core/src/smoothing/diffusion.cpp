@@ -2,6 +2,7 @@
 // All steps are taken in one pass over the rows: when row r is read, step s can do row r - s. What is in flight, a few
 // rows for each step, stays in the cache, so a step costs arithmetic and no memory traffic.
 #include <pimg/detail/diffusion.h>
+#include <pimg/detail/elementary.h>
 #include <pimg/detail/parallel.h>
 
 #include <algorithm>
@@ -13,7 +14,6 @@ namespace pimg {
 namespace {
 
 constexpr int kBandRows = 128;  ///< rows of one task; each repeats `steps` rows of its neighbours
-constexpr double kPi = 3.14159265358979323846;
 
 /// Lengths of the steps of one cycle. Single steps exceed the stability limit of 1/4, the whole cycle is stable;
 /// long and short ones take turns so that rounding cannot grow in between.
@@ -21,7 +21,7 @@ std::vector<float> step_lengths(int steps)
 {
     std::vector<float> rising;
     for (int i = 0; i < steps; ++i) {
-        const double c = std::cos(kPi * (2 * i + 1) / (4.0 * steps + 2.0));
+        const double c = elementary::sine_cosine(elementary::kPi * (2 * i + 1) / (4.0 * steps + 2.0)).cosine;
         rising.push_back(float(0.125 / (c * c)));
     }
     std::vector<float> lengths;
