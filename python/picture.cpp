@@ -75,6 +75,8 @@ Picture from_array(const py::array& array)
 
 Picture to_picture(py::object object)
 {
+    if (py::isinstance(object, py::module_::import("numpy").attr("ma").attr("MaskedArray")))
+        throw py::type_error("a masked array: expected one without a mask, such as its filled(0) or data");
     if (py::isinstance<py::array>(object))
         return from_array(py::reinterpret_borrow<py::array>(object));
     if (py::isinstance<ImageBuf>(object)) {

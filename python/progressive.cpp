@@ -108,6 +108,14 @@ std::shared_ptr<ImageBuf> read_pimg(OIIO::ImageInput& input, const std::string& 
 
 py::object filtered(const ProgressiveImage& image, Form form, const BoundFilter& filter, OIIO::ROI roi, int nthreads)
 {
+    // What lies outside has no pixels, and no bound.
+    const OIIO::ROI whole = OIIO::get_roi(image.spec());
+    if (roi.defined()) {
+        roi.chend = std::min(roi.chend, whole.chend);
+        roi = OIIO::roi_intersection(roi, whole);
+        if (roi.width() < 1 || roi.height() < 1)
+            throw py::value_error("roi: expected one that overlaps the picture");
+    }
     ImageBuf result;
     bool done = false;
     {

@@ -118,6 +118,13 @@ bool pimg_render(const pimg_image* image, const char* filter, const pimg_pixels*
             || !pimg::split_options(colon == text.npos ? "" : text.substr(colon + 1), texts, message)
             || !row->bind(texts, run, message))
             return false;
+        // A window far away is fine and nothing happens; one whose edges are no numbers any more is not. INT_MIN also
+        // is OpenImageIO's word for everything.
+        constexpr int kFar = 1 << 30;
+        if (x < -kFar || x > kFar || y < -kFar || y > kFar) {
+            message = format("x, y: {}, {}: expected a place within {} pixels of the origin", x, y, kFar);
+            return false;
+        }
         const std::unique_ptr<ImageBuf> window = wrap(*result, x, y);
         if (!run(*window, image->picture, window->roi(), nthreads))
             message = window->has_error() ? window->geterror() : "the filter failed";

@@ -143,6 +143,11 @@ static void test_errors(const pimg_image* image)
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; ++i)
         expect_error(pimg_render(image, bad[i].filter, &out, 0, 0, 0, error, sizeof error), error, bad[i].says);
+    static const int far_away[] = { -2147483647 - 1, 2147483647, -(1 << 30) - 1, (1 << 30) + 1 };
+    for (size_t i = 0; i < sizeof far_away / sizeof *far_away; ++i) {
+        expect_error(pimg_render(image, "level", &out, far_away[i], 0, 0, error, sizeof error), error, "x, y");
+        expect_error(pimg_render(image, "level", &out, 0, far_away[i], 0, error, sizeof error), error, "x, y");
+    }
     expect_error(pimg_render(NULL, "ink", &out, 0, 0, 0, error, sizeof error), error, "image");
     expect_error(pimg_render(image, NULL, &out, 0, 0, 0, error, sizeof error), error, "filter");
     expect_error(pimg_render(image, "ink", NULL, 0, 0, 0, error, sizeof error), error, "result");

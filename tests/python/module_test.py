@@ -151,6 +151,16 @@ class Filters(unittest.TestCase):
             roi = oiio.ROI(10, 30, 5, 25, 0, 1, 0, 3)
             self.assertTrue(np.array_equal(pixels_of(getattr(p, name)(roi=roi)).reshape(part.shape), part), name)
 
+    def test_hostile_arguments_are_errors(self):
+        array = scene()
+        image = pimg.build(array)
+        beyond = image.level(roi=(-2**31 + 1, 2**31 - 1, -2**31 + 1, 2**31 - 1))
+        self.assertTrue(np.array_equal(beyond, image.level()))
+        with self.assertRaisesRegex(ValueError, "overlaps"):
+            image.level(roi=(2**30, 2**31 - 1, 0, 10))
+        with self.assertRaisesRegex(TypeError, "mask"):
+            pimg.level(np.ma.masked_array(array, mask=array > 0.5))
+
     def test_buffers_keep_windows_and_metadata(self):
         spec = oiio.ImageSpec(61, 47, 3, "half")
         spec.x, spec.y, spec.full_width, spec.full_height = 5, -7, 100, 90

@@ -41,8 +41,8 @@ typedef struct pimg_image pimg_image;
 PIMG_API pimg_image* pimg_build(const pimg_pixels* picture, const char* options, char* error, size_t error_size);
 
 /* Renders a filter: its name and options as in "hdr_compress:s0=0.1:beta=4"; `pimgtool --help` lists them.
- * `result` is a window of the picture whose upper left pixel is (x, y) of it; parts outside stay as they were. A window
- * holds just what rendering the whole picture puts there. Labels and boundaries of segment go to the first channel;
+ * `result` is a window of the picture whose upper left pixel is (x, y) of it; parts outside stay as they were, x and y
+ * lie within 2^30. A window holds just what rendering the whole picture puts there. Labels and boundaries of segment go to the first channel;
  * channels that a filter does not change, such as alpha, are copied. nthreads: 0 for all cores; never changes a result. */
 PIMG_API bool pimg_render(const pimg_image* image, const char* filter, const pimg_pixels* result, int x, int y,
                           int nthreads, char* error, size_t error_size);
