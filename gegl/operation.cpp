@@ -73,11 +73,11 @@ void find_slider(const OptionInfo& option, double preset, double& low, double& h
 }
 
 /// What stands for "not set" is one below the range, as in the options structs.
-GParamSpec* property(const OptionInfo& option)
+GParamSpec* property(const OptionInfo& option, GParamFlags more)
 {
     const std::string name = dashed(option.key),
                       help = option.help + (option.unit.empty() ? "" : " (" + option.unit + ")");
-    const auto flags = GParamFlags(G_PARAM_READWRITE | G_PARAM_CONSTRUCT | GEGL_PARAM_PAD_INPUT);
+    const auto flags = GParamFlags(G_PARAM_READWRITE | int(more) | GEGL_PARAM_PAD_INPUT);
     const bool unset = option.default_value.empty();
     const double preset = unset ? -1.0 : OIIO::Strutil::stod(option.default_value);
     const double least = unset ? -1.0 : option.min;
@@ -270,8 +270,13 @@ void init_class(gpointer klass, gpointer filter)
     object->get_property = get_property;
     object->finalize = finalize;
     guint id = 0;
-    for (const OptionInfo& option : *self->options)
-        g_object_class_install_property(object, ++id, property(option));
+    for (const OptionInfo& option : *self->options) {
+        g_object_class_install_property(object, ++id, property(option, G_PARAM_CONSTRUCT));
+        OptionInfo older = option;
+        older.key = option.alias;
+        if (!older.key.empty())
+            g_object_class_install_property(object, id, property(older, G_PARAM_DEPRECATED));
+    }
 
     GeglOperationClass* operation = GEGL_OPERATION_CLASS(klass);
     operation->prepare = prepare;
@@ -282,8 +287,10 @@ void init_class(gpointer klass, gpointer filter)
     GEGL_OPERATION_FILTER_CLASS(klass)->process = process;
     // No licence: GEGL hides operations that state one it does not list.
     const std::string name = "pimg:" + dashed(self->filter->name);
+    std::string summary = self->filter->summary;
+    summary[0] = g_ascii_toupper(summary[0]);
     gegl_operation_class_set_keys(operation, "name", name.c_str(), "title", name.c_str(), "categories", "pimg",
-                                  "description", self->filter->summary, nullptr);
+                                  "description", summary.c_str(), nullptr);
 }
 
 const GeglModuleInfo module_info = { GEGL_MODULE_ABI_VERSION };
@@ -300,7 +307,7 @@ G_MODULE_EXPORT const GeglModuleInfo* gegl_module_query(GTypeModule*)
 G_MODULE_EXPORT gboolean gegl_module_register(GTypeModule* module)
 {
     for (const Filter& filter : pimg::filter_table()) {
-        if (std::string_view(filter.name) == "segment" || std::string_view(filter.name) == "dual_pieces")
+        if (filter.output == pimg::FilterOutput::labels)
             continue;  // labels are no picture
         GTypeInfo info = {};
         info.class_size = sizeof(OperationClass);

@@ -22,7 +22,7 @@ namespace io {
 /// How a file is written: keys of `pimg:key` attributes, and of pimgtool's -o.
 struct WriteOptions {
     std::string profile = "compact";
-    float vertices = 0.015f;
+    float vertices = kMeshLayerShare;
     int effort = 1;
     int quality = -1;  ///< 0 .. 100 instead of effort; below 0: not given
     int tile = 256;

@@ -253,7 +253,7 @@ bool PimgInput::get_thumbnail(ImageBuf& thumbnail, int subimage)
         const Request all {
             0, spec.width, 0, spec.height, 0, spec.nchannels, packed.data(), pixel, pixel * spec.width
         };
-        const double vertices = 0.015 * double(m_stored.image_pixels()), enough = double(spec.image_pixels());
+        const double vertices = std::max(1.0, double(m_decoder.vertices())), enough = double(spec.image_pixels());
         const Status status = m_decoder.read_preview(std::uint32_t(spec.width), std::uint32_t(spec.height),
                                                      planes(m_stored, all), std::min(1.0, enough / vertices));
         if (!status)

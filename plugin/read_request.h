@@ -4,13 +4,12 @@
 #pragma once
 
 #include <map>
-#include <memory>
 #include <string>
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imageio.h>
 
-#include <pimg/progressive_image.h>
+#include <pimg/filter_table.h>
 
 namespace pimg {
 namespace io {
@@ -20,24 +19,6 @@ struct ReadOptions {
     bool mip = false;
     bool partial = false;
     bool display = false;
-};
-
-/// A filter that can be asked for, with its options; see the table in read_request.cpp.
-class ReadFilter {
-public:
-    virtual ~ReadFilter() = default;
-    /// Sets one option; `known` tells keys that are not among them from bad values.
-    virtual bool set(const std::string& key, const std::string& value, bool& known, std::string& error) = 0;
-    /// Takes the value given to the filter's own key. False: the filter is not wanted.
-    virtual bool start(const std::string& value, std::string& error) = 0;
-    /// Whether the options go together, as far as can be told without the picture.
-    virtual bool check(std::string& error) const = 0;
-    virtual bool run(OIIO::ImageBuf& dst, const ProgressiveImage& src, int nthreads) const = 0;
-    virtual std::string keys() const = 0;
-    /// The name of the result's only channel; "": the channels are those of the file.
-    virtual std::string mask() const = 0;
-    bool floating = false;  ///< results may leave the range of the file's samples
-    bool light = false;     ///< results are linear light, whatever the file's samples are
 };
 
 struct ReadRequest : ReadOptions {
@@ -63,9 +44,14 @@ private:
     using Keys = std::map<std::string, Given>;
 
     bool choose_filter(Keys& keys, std::string& error);
+    bool start(const Filter& filter, const std::string& value, std::string& error);
     bool set(const std::string& key, const std::string& value, bool& known, std::string& error);
+    bool bind(std::string& error);
+    const char* only_channel() const;
 
-    std::shared_ptr<ReadFilter> m_filter;
+    const Filter* m_filter = nullptr;  ///< row of the registry
+    OptionTexts m_texts;               ///< options given for it
+    BoundFilter m_bound;
 };
 
 }  // namespace io

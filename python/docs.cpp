@@ -94,11 +94,13 @@ OptionTexts to_texts(const py::kwargs& arguments, const std::vector<OptionInfo>&
         names.push_back(python_name(option));
     for (const auto& [key, value] : arguments) {
         const std::string name = py::str(key);
-        const auto at = std::find(names.begin(), names.end(), name);
-        if (at == names.end())
+        const auto at = std::find_if(known.begin(), known.end(), [&](const OptionInfo& option) {
+            return name == python_name(option) || (!option.alias.empty() && name == option.alias);
+        });
+        if (at == known.end())
             throw py::type_error(unknown_option(name, { names.begin(), names.end() }));
         if (!value.is_none())
-            texts.emplace_back(known[std::size_t(at - names.begin())].key, to_text(value));
+            texts.emplace_back(at->key, to_text(value));
     }
     return texts;
 }

@@ -51,16 +51,6 @@ std::string unknown_command(const std::string& name)
     return format("unknown operation \"{}\": {}", name, hint);
 }
 
-/// The colon that ends the value which starts at `begin`. No key starts with a digit: a colon before one is part of the
-/// value, as in curve=0:1,1:3.
-std::size_t end_of_value(const std::string& text, std::size_t begin)
-{
-    std::size_t end = text.find(':', begin);
-    while (end != std::string::npos && end + 1 < text.size() && text[end + 1] >= '0' && text[end + 1] <= '9')
-        end = text.find(':', end + 1);
-    return end;
-}
-
 /// Takes the words a command needs from the arguments after `at`.
 bool take_words(const std::vector<std::string>& arguments, std::size_t& at, Call& call, std::string& error)
 {
@@ -142,29 +132,9 @@ bool parse_input(const std::string& filename, Program& program, std::string& err
 
 bool split_keys(const std::string& text, Call& call, std::string& error)
 {
-    for (std::size_t at = 0; at < text.size();) {
-        ++at;  // the colon
-        const std::size_t equals = text.find_first_of("=:", at);
-        if (equals == at || equals == std::string::npos || text[equals] == ':') {
-            error = format("\"{}\": expected key=value", text.substr(at, text.find(':', at) - at));
-            return false;
-        }
-        std::size_t begin = equals + 1;
-        std::size_t end = end_of_value(text, begin);
-        std::size_t next = end;
-        if (begin < text.size() && (text[begin] == '"' || text[begin] == '\'')) {
-            const std::size_t closing = text.find(text[begin], begin + 1);
-            if (closing != std::string::npos && (closing + 1 == text.size() || text[closing + 1] == ':')) {
-                end = closing;
-                next = closing + 1;
-                ++begin;
-            }
-        }
-        const std::string value = text.substr(begin, end == std::string::npos ? end : end - begin);
-        call.keys.emplace_back(text.substr(at, equals - at), value);
-        at = std::min(next, text.size());
-    }
-    return true;
+    if (text == ":")
+        error = "\"\": expected key=value";
+    return error.empty() && (text.empty() || pimg::split_options(text.substr(1), call.keys, error));
 }
 
 const Command* find_command(const std::string& name)

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <pimg/option_text.h>
 #include <pimg/options.h>
 
 #include "stack.h"
@@ -19,7 +20,7 @@ struct Command;
 /// A command as given: `--level:fraction=0.1`, `--colorconvert sRGB linear`.
 struct Call {
     const Command* command;
-    std::vector<std::pair<std::string, std::string>> keys;
+    pimg::OptionTexts keys;
     std::vector<std::string> words;
 };
 
@@ -82,7 +83,7 @@ const std::vector<CommandGroup>& command_table();
 /// The command of that name, with one or two dashes; null if there is none.
 const Command* find_command(const std::string& name);
 
-/// Splits ":key=value:key=value". A value in quotation marks may hold colons.
+/// Splits ":key=value:key=value" by the rules of option_text.h.
 bool split_keys(const std::string& text, Call& call, std::string& error);
 
 /// Prepares the general settings among the arguments, wherever they stand; `rest` receives the others.

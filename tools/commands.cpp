@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of all commands. To add a filter: one row, naming its options struct (whose table has the keys) and
-// its function; an operation of another kind has a row and a small function.
+// The table of all commands. Filters are those of the registry, filter_table(); an operation of another kind has a row
+// and a small function.
 #include <algorithm>
 #include <utility>
 
@@ -61,10 +61,9 @@ bool hdr_compress(Session& session, const pimg::HdrCompressOptions& options)
 }
 
 /// Counted, as --shot-stats needs to know which one it is for.
-Command hdr_compress_row()
+Command hdr_compress_row(const pimg::Filter& filter)
 {
-    Command row = operation<pimg::HdrCompressOptions>(
-        "--hdr-compress", "fits high dynamic range to a display: linear light, white at 1", hdr_compress);
+    Command row = operation<pimg::HdrCompressOptions>(filter.command, filter.summary, hdr_compress);
     row.prepare = [prepare = row.prepare](const Call& call, Program& program, std::string& error) {
         ++program.compressions;
         return prepare(call, program, error);
@@ -107,33 +106,15 @@ bool answered_already(const Call& call, Program&, std::string& error)
 
 // ---- the table --------------------------------------------------------------------------------------------
 
+/// Those of the registry, in its order.
 CommandGroup filters_group()
 {
-    namespace iba = pimg::ImageBufAlgo;
-    return {
-        "Filters on the progressive image of the top picture",
-        {
-            operation<pimg::BuildOptions>(
-                "--build", "builds the progressive image now, as the filters that follow are to use it", build),
-            filter<pimg::LevelOptions>("--level", "picture of a coarser mesh; at most one key, none for the finest",
-                                       iba::level_image),
-            filter<pimg::WireframeOptions>("--wireframe", "edges of the mesh of a level, chosen as for --level",
-                                           iba::wireframe),
-            filter<pimg::FeatureLowpassOptions>(
-                "--feature-lowpass", "drops small features and keeps the edges of large ones", iba::feature_lowpass),
-            filter<pimg::DetailEnhanceOptions>("--detail-enhance", "amplifies the details of a range of splits",
-                                               iba::detail_enhance),
-            hdr_compress_row(),
-            filter<pimg::DualPiecesOptions>("--dual-pieces",
-                                            "pixels that each vertex of a level stands for, chosen as for --level",
-                                            iba::dual_pieces),
-            filter<pimg::SegmentOptions>("--segment", "merges what looks alike into connected regions", iba::segment),
-            filter<pimg::PaintOptions>("--paint", "paints with brush strokes that follow the picture's forms",
-                                       iba::paint),
-            filter<pimg::MosaicOptions>("--mosaic", "lays the pieces of a level as tiles", iba::mosaic),
-            filter<pimg::InkOptions>("--ink", "draws with pen and ink", iba::ink),
-        }
-    };
+    CommandGroup group { "Filters on the progressive image of the top picture", {} };
+    group.commands.push_back(operation<pimg::BuildOptions>(
+        "--build", "builds the progressive image now, as the filters that follow are to use it", build));
+    for (const pimg::Filter& row : pimg::filter_table())
+        group.commands.push_back(std::string_view(row.name) == "hdr_compress" ? hdr_compress_row(row) : filter(row));
+    return group;
 }
 
 CommandGroup stack_group()

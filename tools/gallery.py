@@ -159,7 +159,7 @@ def dual_pieces(g):
     g.figure('fig04', 'Fig. 4: dual pieces',
              'The pieces that 400 and 3000 vertices stand for, outlined as the polygons through the centres of the '
              'triangles around each vertex.',
-             ['pimgtool chelsea.png --mosaic:tiles=%d:grout=0.7:bevel=0:color=1 -o fig04_%d.png' % (n, n)
+             ['pimgtool chelsea.png --mosaic:tiles=%d:grout=0.7:bevel=0:colour=1 -o fig04_%d.png' % (n, n)
               for n in (400, 3000)])
 
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <pimg/filter_table.h>
-#include <pimg/imagebufalgo.h>
 
 #include "command.h"
 
@@ -34,26 +33,22 @@ Command operation(const char* name, const char* help, bool (*run)(Session&, cons
     return { name, "", help, 1, 0, pimg::describe_options<Options>, prepare };
 }
 
-template<class Options>
-using FilterFunction = bool (*)(OIIO::ImageBuf&, const pimg::ProgressiveImage&, const Options&, OIIO::ROI, int);
-
 /// A filter on the hierarchy of the top picture. The result is one sweep away once the hierarchy is there.
-template<class Options>
-Command filter(const char* name, const char* help, FilterFunction<Options> function)
+inline Command filter(const pimg::Filter& row)
 {
-    const auto prepare = [=](const Call& call, Program& program, std::string& error) {
-        Options options;
-        if (!pimg::set_options(options, call.keys, error))
+    const auto prepare = [bind = row.bind](const Call& call, Program& program, std::string& error) {
+        pimg::BoundFilter bound;
+        if (!bind(call.keys, bound, error))
             return false;
-        const auto run = [=](OIIO::ImageBuf& dst, const pimg::ProgressiveImage& src) {
-            return function(dst, src, options, {}, 0);
+        const auto run = [bound](OIIO::ImageBuf& dst, const pimg::ProgressiveImage& src) {
+            return bound(dst, src, {}, 0);
         };
-        program.steps.push_back({ call.command->name, [=](Session& session) {
+        program.steps.push_back({ call.command->name, [run](Session& session) {
                                      return session.filter(run);
                                  } });
         return true;
     };
-    return { name, "", help, 1, 0, pimg::describe_options<Options>, prepare };
+    return { row.command, "", row.summary, 1, 0, row.options, prepare };
 }
 
 /// An operation with words and keys, and what can be said about them beforehand.

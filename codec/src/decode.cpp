@@ -101,6 +101,10 @@ std::uint32_t Decoder::tile() const
 {
     return m_file->head.tile;
 }
+std::uint32_t Decoder::vertices() const
+{
+    return m_file->head.vertices;
+}
 std::uint64_t Decoder::sample_hash() const
 {
     return m_file->head.hash;

@@ -13,19 +13,67 @@ namespace {
 template<class Options>
 using Function = bool (*)(OIIO::ImageBuf&, const ProgressiveImage&, const Options&, OIIO::ROI, int);
 
-template<class Options, Function<Options> function>
-Filter row(const char* name, const char* summary)
+/// What results of these options are, if the row says `usual` of the defaults.
+template<class Options>
+FilterOutput output_of(const Options&, FilterOutput usual)
 {
-    const auto bind = [](const OptionTexts& texts, BoundFilter& filter, std::string& error) {
-        Options options;
-        if (!set_options(options, texts, error))
-            return false;
-        filter = [options](OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI roi, int nthreads) {
-            return function(dst, src, options, roi, nthreads);
-        };
-        return true;
+    return usual;
+}
+FilterOutput output_of(const std::string& partition)
+{
+    return partition == "labels"    ? FilterOutput::labels
+        : partition == "boundaries" ? FilterOutput::mask
+                                    : FilterOutput::picture;
+}
+FilterOutput output_of(const SegmentOptions& options, FilterOutput)
+{
+    return output_of(options.output);
+}
+FilterOutput output_of(const DualPiecesOptions& options, FilterOutput)
+{
+    return output_of(options.output);
+}
+
+/// The option given that names a file to write.
+template<class Options>
+std::string written_by(const Options& options)
+{
+    for (const Option<Options>& option : option_table<Options>())
+        if (option.rule.file == FileUse::written && !std::get<std::string>(option.get(options)).empty())
+            return option.rule.key;
+    return "";
+}
+
+template<class Options, Function<Options> function, FilterOutput output>
+bool bind(const OptionTexts& texts, BoundFilter& filter, std::string& error)
+{
+    Options options;
+    if (!set_options(options, texts, error))
+        return false;
+    filter.output = output_of(options, output);
+    filter.written = written_by(options);
+    filter.run = [options](OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI roi, int nthreads) {
+        return function(dst, src, options, roi, nthreads);
     };
-    return { name, summary, describe_options<Options>, bind };
+    return true;
+}
+
+struct Names {
+    const char *name, *command, *summary;
+};
+
+constexpr BareValue kSwitch = { "1", "", "" };
+
+template<class Options, Function<Options> function, FilterOutput output>
+Filter row(const Names& names, const BareValue& bare = kSwitch)
+{
+    return { names.name,
+             names.command,
+             names.summary,
+             bare,
+             output,
+             describe_options<Options>,
+             bind<Options, function, output> };
 }
 
 }  // namespace
@@ -33,17 +81,29 @@ Filter row(const char* name, const char* summary)
 const std::vector<Filter>& filter_table()
 {
     namespace iba = ImageBufAlgo;
+    using Out = FilterOutput;
     static const std::vector<Filter> table = {
-        row<HdrCompressOptions, iba::hdr_compress>("hdr_compress", "Fits high dynamic range to a display"),
-        row<FeatureLowpassOptions, iba::feature_lowpass>("feature_lowpass", "Smooths texture away and keeps features"),
-        row<DetailEnhanceOptions, iba::detail_enhance>("detail_enhance", "Amplifies details"),
-        row<DualPiecesOptions, iba::dual_pieces>("dual_pieces", "Pixels that each vertex of a level stands for"),
-        row<SegmentOptions, iba::segment>("segment", "Merges what looks alike into connected regions"),
-        row<PaintOptions, iba::paint>("paint", "Paints with brush strokes that follow the picture's forms"),
-        row<MosaicOptions, iba::mosaic>("mosaic", "Lays the pieces of a level as tiles"),
-        row<InkOptions, iba::ink>("ink", "Draws with pen and ink"),
-        row<LevelOptions, iba::level_image>("level", "The mesh of one level as a picture"),
-        row<WireframeOptions, iba::wireframe>("wireframe", "The edges of the mesh of one level"),
+        row<LevelOptions, iba::level_image, Out::picture>(
+            { "level", "--level", "picture of a coarser mesh; at most one key, none for the finest" },
+            { "SPLITS", "splits", "" }),
+        row<WireframeOptions, iba::wireframe, Out::picture>(
+            { "wireframe", "--wireframe", "edges of the mesh of a level, chosen as for --level" }),
+        row<FeatureLowpassOptions, iba::feature_lowpass, Out::picture>(
+            { "feature_lowpass", "--feature-lowpass", "drops small features and keeps the edges of large ones" },
+            { "SPLITS", "splits", "fraction" }),
+        row<DetailEnhanceOptions, iba::detail_enhance, Out::unbounded>(
+            { "detail_enhance", "--detail-enhance", "amplifies the details of a range of splits" },
+            { "GAIN", "gain", "" }),
+        row<HdrCompressOptions, iba::hdr_compress, Out::light>(
+            { "hdr_compress", "--hdr-compress", "fits high dynamic range to a display: linear light, white at 1" }),
+        row<DualPiecesOptions, iba::dual_pieces, Out::labels>(
+            { "dual_pieces", "--dual-pieces", "pixels that each vertex of a level stands for, chosen as for --level" }),
+        row<SegmentOptions, iba::segment, Out::labels>(
+            { "segment", "--segment", "merges what looks alike into connected regions" }, { "REGIONS", "regions", "" }),
+        row<PaintOptions, iba::paint, Out::picture>(
+            { "paint", "--paint", "paints with brush strokes that follow the picture's forms" }),
+        row<MosaicOptions, iba::mosaic, Out::picture>({ "mosaic", "--mosaic", "lays the pieces of a level as tiles" }),
+        row<InkOptions, iba::ink, Out::picture>({ "ink", "--ink", "draws with pen and ink" }),
     };
     return table;
 }
@@ -59,30 +119,6 @@ const Filter* find_filter(std::string_view name, std::string& error)
     }
     error = "unknown filter \"" + std::string(name) + "\": expected one of " + names;
     return nullptr;
-}
-
-bool split_options(std::string_view text, OptionTexts& texts, std::string& error)
-{
-    while (!text.empty()) {
-        const std::size_t equals = text.find('=');
-        if (equals == 0 || equals == text.npos || text.find(':') < equals) {
-            error = "\"" + std::string(text.substr(0, text.find(':'))) + "\": expected key=value";
-            return false;
-        }
-        const std::string key(text.substr(0, equals));
-        text.remove_prefix(equals + 1);
-        const bool quoted = !text.empty() && text[0] == '"';
-        if (quoted)
-            text.remove_prefix(1);
-        const std::size_t end = text.find(quoted ? '"' : ':');
-        if (quoted && (end == text.npos || (end + 1 < text.size() && text[end + 1] != ':'))) {
-            error = key + ": expected the value in quotes to end with a quote";
-            return false;
-        }
-        texts.emplace_back(key, text.substr(0, end));
-        text.remove_prefix(std::min(text.size(), end == text.npos ? end : end + (quoted ? 2 : 1)));
-    }
-    return true;
 }
 
 }  // namespace pimg

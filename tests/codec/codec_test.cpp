@@ -175,6 +175,22 @@ TEST(Codec, TilesEqualTheWholePictureAndThreadsChangeNothing)
     EXPECT_FALSE(decoder.read_tile(3, 0, planes));
 }
 
+TEST(Codec, TheHeaderSaysHowManyVerticesTheMeshLayerHas)
+{
+    const Picture p = make_picture(150, 90, { SampleType::uint8 });
+    for (const float share : { 0.002f, kMeshLayerShare, 0.2f }) {
+        EncodeOptions options;
+        options.vertices = share;
+        const auto file = encoded(p, options);
+        Decoder decoder;
+        ASSERT_TRUE(decoder.open(memory_source(file.data(), file.size())));
+        std::vector<std::uint8_t> pixels;
+        ReadInfo info;
+        ASSERT_TRUE(decode(file.data(), file.size(), pixels, &info));
+        EXPECT_EQ(decoder.vertices(), info.vertices);
+    }
+}
+
 TEST(Codec, EveryPrefixIsNoWorseThanShorterOnes)
 {
     const Picture p = make_picture(400, 300, { SampleType::uint8 });

@@ -39,6 +39,15 @@ check_version ./use_core
 "$CXX" $CXXFLAGS project/CMakeFiles/use_filters.dir/use_filters.cpp.o -o use_filters $(pkg-config --libs pimg)
 check_version ./use_filters
 
+echo "== <pimg/pimg.hpp> has all headers of C++, and compiles alone"
+for header in moved/include/pimg/*.h; do
+    [[ $header == */pimg.h ]] || grep -q "<pimg/$(basename "$header")>" moved/include/pimg/pimg.hpp ||
+        { echo "pimg.hpp lacks $header"; exit 1; }
+done
+echo "#include <pimg/pimg.hpp>" >header.cpp
+# shellcheck disable=SC2046,SC2086
+"$CXX" -std=c++17 $CXXFLAGS -fsyntax-only $(pkg-config --cflags pimg) header.cpp
+
 echo "== headers that need no OpenImageIO compile alone"
 for header in $(grep -L OpenImageIO moved/include/pimg/*.h); do
     echo "#include <pimg/$(basename "$header")>" >header.cpp

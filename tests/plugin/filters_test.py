@@ -156,5 +156,22 @@ class Results(plugin_files.PluginTest):
         self.assertIn("90 x   60", self.ok("iinfo", "a.pimg?level=50"))
 
 
+class Thumbnails(plugin_files.PluginTest):
+    def test_the_length_of_the_mesh_layer_does_not_spoil_them(self):
+        """As many vertices as make a difference at that size, or all there are. A strip has a thumbnail of few pixels."""
+        pixels = scene(4000, 100, 1)
+
+        def thumbnail(vertices):
+            write("a.pimg", pixels, "half", {"pimg:vertices": vertices})
+            made = opened("a.pimg").get_thumbnail()
+            self.assertEqual(made.spec().width, 256)
+            return made.get_pixels(oiio.FLOAT)
+
+        usual = thumbnail(0.015)
+        for vertices in (0.2, 0.004):
+            # 0.046 and 0.020 when the number of vertices was guessed instead of read.
+            self.assertLess(np.abs(thumbnail(vertices) - usual).max(), 0.008, vertices)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -107,7 +107,7 @@ TEST_F(CommandLine, KeepsColonsInQuotationMarks)
     EXPECT_EQ(error_of({ "in.png", "--build:incolorspace='a:b'", "-o", "out.png" }), "");
     EXPECT_EQ(error_of({ "in.png", "--build:incolorspace=", "-o", "out.png" }), "");
     expect_operation_error("--build:incolorspace=a:b", { "--build", "\"b\"", "key=value" });
-    expect_operation_error("--build:incolorspace=\"a:b", { "--build", "key=value" });
+    expect_operation_error("--build:incolorspace=\"a:b", { "--build", "incolorspace: expected", "quotation marks" });
 }
 
 TEST_F(CommandLine, NamesUnknownOperations)

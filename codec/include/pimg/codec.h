@@ -79,11 +79,15 @@ std::vector<StridedChannel> interleaved(const PictureDesc& desc, void* pixels);
 
 enum class Profile : std::uint8_t { compact = 0, full = 1 };
 
+/// Share of the pixels that become vertices of the mesh layer unless something else is asked for: a first picture in the
+/// first few percent of the file (docs/format.md).
+constexpr float kMeshLayerShare = 0.015f;
+
 struct EncodeOptions {
     Profile profile = Profile::compact;
-    float vertices = 0.0125f;  ///< share of the pixels that become vertices of the mesh layer, 0 .. 0.3
-    int effort = 1;            ///< 0 quick (one predictor for all tiles), 1 normal, 2 tries everything
-    std::uint32_t tile = 256;  ///< side of the raster tiles, 16 .. 1024
+    float vertices = kMeshLayerShare;  ///< share of the pixels that become vertices of the mesh layer, 0 .. 0.3
+    int effort = 1;                    ///< 0 quick (one predictor for all tiles), 1 normal, 2 tries everything
+    std::uint32_t tile = 256;          ///< side of the raster tiles, 16 .. 1024
     /// Positions of a stored hierarchy are moved onto multiples of 2^shift / 64 pixels; 0 keeps them as they are. -1:
     /// 0, but 2 for a single 8-bit channel.
     int lattice_shift = -1;
@@ -160,6 +164,7 @@ public:
     const PictureDesc& desc() const;
     Profile profile() const;
     std::uint32_t tile() const;         ///< side of the raster tiles
+    std::uint32_t vertices() const;     ///< of the whole mesh layer
     std::uint64_t sample_hash() const;  ///< XXH64 of the samples (docs/format.md), 0 when not stored
 
     /// Every chunk present, by a walk over the chunk headers.

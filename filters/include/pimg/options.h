@@ -14,14 +14,19 @@
 
 namespace pimg {
 
+/// What becomes of a file that an option names; `read` also where it may name something else.
+enum class FileUse { none, read, written };
+
 /// What is known of one option apart from where it is stored.
 struct OptionRule {
     const char* key;
-    double min, max;        ///< inclusive range of numbers; both 0 for any
-    const char* unit;       ///< "" for none
-    const char* choices;    ///< words allowed, "a|b|c"; "" for any
-    const char* help;       ///< one line
-    const char* sets = "";  ///< what it sets, if others set it too: only one of those may be given
+    double min, max;         ///< inclusive range of numbers; both 0 for any
+    const char* unit;        ///< "" for none
+    const char* choices;     ///< words allowed, "a|b|c"; "" for any
+    const char* help;        ///< one line
+    const char* sets = "";   ///< what it sets, if others set it too: only one of those may be given
+    const char* alias = "";  ///< an older spelling of the key, still understood; "" for none
+    FileUse file = FileUse::none;
 };
 
 /// A value of any type an option may have.
@@ -48,6 +53,11 @@ struct Option {
 struct OptionInfo {
     std::string key, type, unit, range, choices, default_value, help;
     double min = 0.0, max = 0.0;  ///< as in OptionRule
+    std::string alias;            ///< an older spelling of the key, not shown but understood; empty for none
+    FileUse file = FileUse::none;
+
+    /// Whether `name` is its key, or the older spelling.
+    bool is_called(std::string_view name) const { return name == key || (!alias.empty() && name == alias); }
 };
 
 /// The table of an options struct; specialised for each below.
@@ -156,14 +166,14 @@ struct PaintOptions {
     float max = 32.0f;              ///< widest brush in pixels
     std::string brush = "bristle";  ///< round, flat, bristle, knife, or a picture: alpha says where, grey how thick
     float length = 1.0f;            ///< factor on the length of strokes
-    float tolerance = 3.0f;     ///< least improvement a stroke must bring, in 8-bit steps; 0: strokes for all splits
-    float opacity = 1.0f;       ///< of every stroke; 0 leaves the canvas
-    float impasto = 0.0f;       ///< strength of the light on the relief of the paint
-    float jitter_color = 0.0f;  ///< random change of a stroke's brightness, as a share of it
-    float jitter_angle = 0.0f;  ///< random turn of a stroke, as a share of 45 degrees
-    float jitter_size = 0.0f;   ///< random change of a stroke's width, as a share of it
-    int seed = 1;               ///< of all that is random
-    std::string canvas;         ///< colour or picture painted on; empty: the picture itself
+    float tolerance = 3.0f;      ///< least improvement a stroke must bring, in 8-bit steps; 0: strokes for all splits
+    float opacity = 1.0f;        ///< of every stroke; 0 leaves the canvas
+    float impasto = 0.0f;        ///< strength of the light on the relief of the paint
+    float jitter_colour = 0.0f;  ///< random change of a stroke's brightness, as a share of it
+    float jitter_angle = 0.0f;   ///< random turn of a stroke, as a share of 45 degrees
+    float jitter_size = 0.0f;    ///< random change of a stroke's width, as a share of it
+    int seed = 1;                ///< of all that is random
+    std::string canvas;          ///< colour or picture painted on; empty: the picture itself
     std::string
         detail;  ///< picture that scales the brushes: white for a quarter, grey 0.5 as they are, black for four times
     std::string strokes;  ///< FILE.svg or FILE.json the strokes are written to; empty: none
@@ -171,11 +181,11 @@ struct PaintOptions {
 
 /// Dual pieces as the tiles of a mosaic (paper, section 7).
 struct MosaicOptions {
-    int tiles = 2000;            ///< number of tiles
-    float grout = 1.5f;          ///< width of the joints in pixels
-    float bevel = 2.0f;          ///< width of the slope around a tile in pixels
-    float relief = 0.5f;         ///< how strongly the slopes are lit
-    std::string color = "0.15";  ///< of the joints, in the picture's units
+    int tiles = 2000;             ///< number of tiles
+    float grout = 1.5f;           ///< width of the joints in pixels
+    float bevel = 2.0f;           ///< width of the slope around a tile in pixels
+    float relief = 0.5f;          ///< how strongly the slopes are lit
+    std::string colour = "0.15";  ///< of the joints, in the picture's units
 };
 
 /// Pen and ink (paper, section 7).
@@ -236,7 +246,7 @@ bool set_option(T& options, std::string_view key, std::string_view value, std::s
     std::vector<std::string_view> known;
     for (const Option<T>& option : option_table<T>()) {
         known.push_back(option.rule.key);
-        if (key != option.rule.key)
+        if (key != option.rule.key && (key.empty() || key != option.rule.alias))
             continue;
         OptionValue parsed = option.get(options);
         if (!parse_option(option.rule, value, parsed, error))

@@ -172,6 +172,8 @@ OptionInfo describe_option(const OptionRule& rule, const OptionValue& default_va
     info.help = rule.help;
     info.min = rule.min;
     info.max = rule.max;
+    info.alias = rule.alias;
+    info.file = rule.file;
     return info;
 }
 
@@ -202,7 +204,9 @@ const std::vector<Option<BuildOptions>>& option_table<BuildOptions>()
             "colour space of the picture; metadata, else sRGB for whole numbers, else linear" } },
         { &T::mesh, { "mesh", 0, 0, "", "full|adaptive", "a vertex for every pixel, or fewer: faster, still exact" } },
         { &T::density, { "density", 1e-6, 1, "", "", "share of the pixels an adaptive mesh keeps" } },
-        { &T::control, { "control", 0, 0, "", "", "what density follows: gradient, curvature, or an image file" } },
+        { &T::control,
+          { "control", 0, 0, "", "", "what density follows: gradient, curvature, or an image file", "", "",
+            FileUse::read } },
     };
     return table;
 }
@@ -320,7 +324,8 @@ const std::vector<Option<SegmentOptions>>& option_table<SegmentOptions>()
           { "threshold", 0, kAnyFloat, "", "", "cost that every border left exceeds: squared CIELAB units times pixels",
             "number of regions" } },
         { &T::output, kPartitionOutput },
-        { &T::stats, { "stats", 0, 0, "", "", "file for figures of every region: .json or else CSV" } },
+        { &T::stats,
+          { "stats", 0, 0, "", "", "file for figures of every region: .json or else CSV", "", "", FileUse::written } },
     };
     return table;
 }
@@ -353,22 +358,27 @@ const std::vector<Option<PaintOptions>>& option_table<PaintOptions>()
         { &T::min, { "min", 1, 1000, "pixels", "", "width of the narrowest brush" } },
         { &T::max, { "max", 1, 1000, "pixels", "", "width of the widest brush" } },
         { &T::brush,
-          { "brush", 0, 0, "", "", "round, flat, bristle, knife, or a picture: alpha where, grey how thick" } },
+          { "brush", 0, 0, "", "", "round, flat, bristle, knife, or a picture: alpha where, grey how thick", "", "",
+            FileUse::read } },
         { &T::length, { "length", 0, 10, "", "", "factor on the length of strokes" } },
         { &T::tolerance,
           { "tolerance", 0, 255, "8-bit steps", "", "least improvement a stroke must bring; 0: all strokes" } },
         { &T::opacity, { "opacity", 0, 1, "", "", "of every stroke; 0 leaves the canvas as it is" } },
         { &T::impasto, { "impasto", 0, 1, "", "", "strength of the light on the relief of the paint" } },
-        { &T::jitter_color,
-          { "jitter_color", 0, 1, "", "", "random change of a stroke's brightness, as a share of it" } },
+        { &T::jitter_colour,
+          { "jitter_colour", 0, 1, "", "", "random change of a stroke's brightness, as a share of it", "",
+            "jitter_color" } },
         { &T::jitter_angle, { "jitter_angle", 0, 1, "", "", "random turn of a stroke, as a share of 45 degrees" } },
         { &T::jitter_size, { "jitter_size", 0, 1, "", "", "random change of a stroke's width, as a share of it" } },
         { &T::seed, { "seed", 0, kAnyInt, "", "", "of all that is random" } },
         { &T::canvas,
-          { "canvas", 0, 0, "", "", "white, black, R,G,B or a picture to paint on; else the picture itself" } },
+          { "canvas", 0, 0, "", "", "white, black, R,G,B or a picture to paint on; else the picture itself", "", "",
+            FileUse::read } },
         { &T::detail,
-          { "detail", 0, 0, "", "", "picture scaling the brushes: white 1/4, 0.5 unchanged, black 4 times" } },
-        { &T::strokes, { "strokes", 0, 0, "", "", "FILE.svg or FILE.json to write the strokes to" } },
+          { "detail", 0, 0, "", "", "picture scaling the brushes: white 1/4, 0.5 unchanged, black 4 times", "", "",
+            FileUse::read } },
+        { &T::strokes,
+          { "strokes", 0, 0, "", "", "FILE.svg or FILE.json to write the strokes to", "", "", FileUse::written } },
     };
     return table;
 }
@@ -382,7 +392,7 @@ const std::vector<Option<MosaicOptions>>& option_table<MosaicOptions>()
         { &T::grout, { "grout", 0, 64, "pixels", "", "width of the joints" } },
         { &T::bevel, { "bevel", 0, 64, "pixels", "", "width of the slope around a tile" } },
         { &T::relief, { "relief", 0, 1, "", "", "how strongly the slopes are lit" } },
-        { &T::color, { "color", 0, 0, "", "", "of the joints: white, black, grey level or R,G,B" } },
+        { &T::colour, { "colour", 0, 0, "", "", "of the joints: white, black, grey level or R,G,B", "", "color" } },
     };
     return table;
 }
@@ -398,7 +408,8 @@ const std::vector<Option<InkOptions>>& option_table<InkOptions>()
         { &T::outline, { "outline", 0, 4, "", "", "darkness added along edges" } },
         { &T::cross, { "cross", 0, 0, "", "", "cross the lines where it is dark" } },
         { &T::seed, { "seed", 0, kAnyInt, "", "", "of all that is random" } },
-        { &T::strokes, { "strokes", 0, 0, "", "", "FILE.svg or FILE.json to write the lines to" } },
+        { &T::strokes,
+          { "strokes", 0, 0, "", "", "FILE.svg or FILE.json to write the lines to", "", "", FileUse::written } },
     };
     return table;
 }

@@ -22,8 +22,8 @@ bool on_hierarchy::mosaic(ImageBuf& dst, const ProgressiveImage& src, const Mosa
         ProgressiveImage::Data& data = *src.data();
         const ParallelFor parallel = pool_loop(nthreads);
         std::vector<float> grout;
-        if (!parse_colour(options.color, data.colour.count(), grout)) {
-            set_error(dst, format("color: \"{}\": expected a colour, such as black or 0.2,0.2,0.2", options.color));
+        if (!parse_colour(options.colour, data.colour.count(), grout)) {
+            set_error(dst, format("colour: \"{}\": expected a colour, such as black or 0.2,0.2,0.2", options.colour));
             return false;
         }
         Mesh mesh;

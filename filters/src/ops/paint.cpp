@@ -171,7 +171,7 @@ bool paint_canvas(ProgressiveImage::Data& data, const PaintOptions& options, con
         canvas.channels.push_back(channel.data());
     PaintSettings settings;
     settings.opacity = options.opacity;
-    settings.jitter_color = options.jitter_color;
+    settings.jitter_color = options.jitter_colour;
     settings.edges = &guides;
     settings.crossing = planning.crossing;
     const ChannelsView ground = picture.view();

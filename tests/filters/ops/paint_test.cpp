@@ -87,7 +87,7 @@ TEST(paint, is_the_same_at_any_thread_count_and_for_the_same_seed_only)
 {
     const ImageBuf src = picture(150, 130);
     pimg::PaintOptions options;
-    options.jitter_color = 0.2f;
+    options.jitter_colour = 0.2f;
     options.impasto = 0.5f;
     const ImageBuf one = iba::paint(src, options, {}, 1), three = iba::paint(src, options, {}, 3);
     EXPECT_TRUE(same_bits(one, three));
@@ -250,7 +250,7 @@ TEST(mosaic, one_tile_colour_between_joints)
     const ImageBuf src = picture(120, 90);
     pimg::MosaicOptions options;
     options.tiles = 100;
-    options.color = "9";
+    options.colour = "9";
     options.bevel = 0;
     const ImageBuf result = iba::mosaic(src, options);
     ASSERT_FALSE(result.has_error()) << result.geterror();
@@ -259,7 +259,7 @@ TEST(mosaic, one_tile_colour_between_joints)
     for (float v : samples(result, 0))
         joints += v > 5.0f;
     EXPECT_GT(joints, 300u);
-    options.color = "mauve";
+    options.colour = "mauve";
     EXPECT_NE(iba::mosaic(src, options).geterror().find("color: \"mauve\""), std::string::npos);
 }
 
