@@ -17,7 +17,7 @@ namespace pimg {
 struct alignas(64) AlignedRing : Ring { };
 
 /// The ring that merging t and u leaves: from vr along t's side to vl (place `vl`), then along u's.
-struct Star {
+struct CollapseStar {
     int degree = 0, vl = 0;
     Index ring[kMaxDegree] = {};
     Point points[kMaxDegree] = {};
@@ -39,10 +39,10 @@ public:
     void keep(const std::vector<Index>& survivors);
 
     /// False when t and u are no neighbours or merging them would break the mesh.
-    bool load_star(Index t, Index u, Star& star) const;
+    bool load_star(Index t, Index u, CollapseStar& star) const;
     /// Whether every triangle stays positive and the sides of the picture keep their vertices.
-    bool is_place_ok(Star& star, Index t, Index u, Point s) const;
-    void collapse(const Star& star, Index t, Index u, Point s);
+    bool is_place_ok(CollapseStar& star, Index t, Index u, Point s) const;
+    void collapse(const CollapseStar& star, Index t, Index u, Point s);
     /// Neighbours of t with larger numbers, nearest first, then by number.
     struct Candidates {
         int count = 0;

@@ -21,7 +21,7 @@ struct VolumeShares {
     float ring[kMaxDegree], u;
 };
 
-void volume_shares(const Star& star, Point t, Point u, VolumeShares& shares)
+void volume_shares(const CollapseStar& star, Point t, Point u, VolumeShares& shares)
 {
     std::int64_t share[kMaxDegree];
     std::fill_n(share, star.degree, 0);
@@ -52,7 +52,7 @@ void volume_shares(const Star& star, Point t, Point u, VolumeShares& shares)
 }
 
 /// As project(), with the areas of the faces at hand.
-Projection project_onto(const Star& star, Point s, Point p)
+Projection project_onto(const CollapseStar& star, Point s, Point p)
 {
     const std::int64_t px = p.x - s.x, py = p.y - s.y;
     const auto side = [&](int i) {
@@ -163,7 +163,7 @@ private:
     std::vector<Index> m_batch;  ///< t of each collapse of the batch at hand
     std::vector<Index> m_born;   ///< u of each collapse
     SymbolReader m_gap, m_choice, m_x, m_y;
-    Star m_star;
+    CollapseStar m_star;
     VolumeShares m_shares {};
     Index m_vertices = 0;        ///< of the mesh the sequence starts from
     std::uint64_t m_walked = 0;  ///< words of m_alive, in all batches
@@ -202,7 +202,7 @@ void SequenceReader::analyse_collapse(Index t, Index u)
 {
     if (m_values.empty())
         return;
-    const Star& star = m_star;
+    const CollapseStar& star = m_star;
     VolumeShares& shares = m_shares;
     volume_shares(star, m_mesh.vertices[t].at, m_mesh.vertices[u].at, shares);
     for (std::size_t c = 0; c < m_values.size(); ++c) {
@@ -226,7 +226,7 @@ bool SequenceReader::read_collapse(Index t)
     if (choice >= std::uint32_t(near.count))
         return false;
     const Index u = choice == 0 ? near.nearest : m_mesh.candidate(t, choice);
-    Star& star = m_star;
+    CollapseStar& star = m_star;
     if (!m_mesh.load_star(t, u, star))
         return false;
     const Point pt = m_mesh.vertices[t].at, pu = m_mesh.vertices[u].at, e = m_mesh.extent();

@@ -92,7 +92,7 @@ void CollapseMesh::keep(const std::vector<Index>& survivors)
     rings.resize(survivors.size());
 }
 
-bool CollapseMesh::load_star(Index t, Index u, Star& star) const
+bool CollapseMesh::load_star(Index t, Index u, CollapseStar& star) const
 {
     const Ring &ring_t = rings[t], &ring_u = rings[u];
     const int degree_t = vertices[t].degree, degree_u = vertices[u].degree;
@@ -123,7 +123,7 @@ bool CollapseMesh::load_star(Index t, Index u, Star& star) const
     return true;
 }
 
-bool CollapseMesh::is_place_ok(Star& star, Index t, Index u, Point s) const
+bool CollapseMesh::is_place_ok(CollapseStar& star, Index t, Index u, Point s) const
 {
     const Point e = extent();
     const auto sides = [&](Point p) {
@@ -140,7 +140,7 @@ bool CollapseMesh::is_place_ok(Star& star, Index t, Index u, Point s) const
     return positive;
 }
 
-void CollapseMesh::collapse(const Star& star, Index t, Index u, Point s)
+void CollapseMesh::collapse(const CollapseStar& star, Index t, Index u, Point s)
 {
     for (int i = star.vl + 1; i < star.degree; ++i)
         if (star.ring[i] != kGhost)

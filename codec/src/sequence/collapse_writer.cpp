@@ -36,7 +36,7 @@ class Scheduler {
 public:
     explicit Scheduler(Index vertices) : m_written(vertices, 0), m_read(vertices, 0) { }
 
-    std::uint64_t schedule(std::uint64_t due, Index t, Index u, const Star& star)
+    std::uint64_t schedule(std::uint64_t due, Index t, Index u, const CollapseStar& star)
     {
         std::uint64_t after = std::max({ m_written[t], m_written[u], m_read[t], m_read[u] });
         for (int i = 0; i < star.degree; ++i)
@@ -86,7 +86,7 @@ Status schedule_collapses(const Hierarchy& h, CollapseMesh mesh, const std::vect
     for (Level i = h.levels(); i-- > 0;) {
         const Index s = h.splits[i].s, born = h.base_vertices() + i;
         const Index t = std::min(name[s], name[born]), u = std::max(name[s], name[born]);
-        Star star;
+        CollapseStar star;
         if (!mesh.load_star(t, u, star))
             return Status::failure("hierarchy: split " + std::to_string(i) + " cannot be undone");
         if (double(in_batch) >= std::max(8.0, left * kBatchShare)) {
@@ -140,7 +140,7 @@ public:
 
 private:
     bool write_batch(const Collapse* first, const Collapse* last, float cost);
-    bool find_place(Star& star, const Collapse& c, Point& s) const;
+    bool find_place(CollapseStar& star, const Collapse& c, Point& s) const;
 
     CollapseMesh m_mesh;
     std::uint32_t m_shift;
@@ -148,7 +148,7 @@ private:
     Streams m_streams;
 };
 
-bool SequenceWriter::find_place(Star& star, const Collapse& c, Point& s) const
+bool SequenceWriter::find_place(CollapseStar& star, const Collapse& c, Point& s) const
 {
     const Point e = m_mesh.extent();
     const CollapseClasses free = collapse_classes(m_mesh.vertices[c.t].at, m_mesh.vertices[c.u].at, e);
@@ -188,7 +188,7 @@ bool SequenceWriter::write_batch(const Collapse* first, const Collapse* last, fl
         if (c->u != near.nearest)
             while (m_mesh.candidate(c->t, ++choice) != c->u) { }
         m_streams.choice.add(near.symbol_class, choice);
-        Star star;
+        CollapseStar star;
         Point s;
         if (!m_mesh.load_star(c->t, c->u, star) || !find_place(star, *c, s))
             return false;
