@@ -92,7 +92,8 @@ struct EncodeOptions {
     /// 0, but 2 for a single 8-bit channel.
     int lattice_shift = -1;
     bool hash = true;  ///< store the hash of the samples
-    /// A hierarchy of this very picture (width, height), built with any guide; nullptr: built here on luma.
+    /// A hierarchy of this picture, of the same width and height and built with any guide. With nullptr, encode()
+    /// builds one on luma.
     const Hierarchy* hierarchy = nullptr;
     ParallelFor parallel;  ///< the bytes do not depend on it
     Progress progress;
@@ -110,7 +111,7 @@ Status encode(const PictureDesc& desc, const std::vector<ConstStridedChannel>& s
 
 // ---- read -----------------------------------------------------------------------------------------------------------
 
-/// What a reader is ready to spend; checked before anything is allocated.
+/// Largest values a file may ask for. They are checked before anything is allocated; a file beyond them is an error.
 struct DecodeLimits {
     std::uint32_t side = 1u << 20;
     std::uint64_t pixels = 1ull << 31;
@@ -129,7 +130,7 @@ public:
     virtual bool read(std::uint64_t offset, std::size_t count, void* to) const = 0;
 };
 
-/// Over memory the caller keeps alive.
+/// A source over `size` bytes of memory, which the caller keeps alive as long as the source.
 std::shared_ptr<const Source> memory_source(const void* data, std::size_t size);
 
 /// Whether these first bytes (8 are enough) are those of a .pimg file.
@@ -170,8 +171,8 @@ public:
     /// Every chunk present, by a walk over the chunk headers.
     Status chunks(std::vector<ChunkInfo>& list) const;
 
-    /// The whole picture, as well as the file's bytes allow: tiles that are missing show the mesh layer as far as it is
-    /// there. Damage anywhere (a chunk that fails its checksum) is an error; an early end of the file is not.
+    /// Reads the whole picture as exactly as the file's bytes allow. Where a raster tile is missing, the samples are
+    /// those of the mesh layer, as far as that is there. Damage anywhere (a chunk that fails its checksum) is an error; an early end of the file is not.
     /// One entry of `samples` per channel, over the data window.
     Status read(const std::vector<StridedChannel>& samples, ReadInfo* info = nullptr,
                 const ParallelFor& parallel = {}) const;
@@ -180,8 +181,8 @@ public:
     /// lower edges; `samples` point at the tile's first pixel. As exact or coarse as read() would give.
     Status read_tile(std::uint32_t column, std::uint32_t row, const std::vector<StridedChannel>& samples) const;
 
-    /// The picture as the first `share` (0 .. 1] of the mesh layer's vertices show it, sampled at the centres of a
-    /// width x height raster over the data window. What a thumbnail is made of: reads the mesh chunks only.
+    /// Reads a preview, for thumbnails: the picture as the first `share` (0 .. 1] of the mesh layer's vertices show it,
+    /// sampled at the pixel centres of a width x height raster over the data window. Reads the mesh chunks only.
     Status read_preview(std::uint32_t width, std::uint32_t height, const std::vector<StridedChannel>& samples,
                         double share = 1.0) const;
 
