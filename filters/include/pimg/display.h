@@ -13,7 +13,7 @@ namespace pimg {
 /// Colour::resolve(), and encoded sRGB. Alpha and other channels stay as they are. On failure the result has an error.
 OIIO::ImageBuf srgb_encoded(const OIIO::ImageBuf& src, int nthreads = 0);
 
-/// The sRGB curve on `count` numbers in place; straight on below 0 and above 1.
+/// Applies the sRGB curve to `count` numbers in place. Below 0 it is a straight line; above 1 the curve goes on.
 void srgb_in_place(float* values, std::size_t count);
 
 /// Makes metadata say which space the pixels are in now, "" for none that has a name.
