@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cstring>
-#include <new>
 
 #include <pimg/codec.h>
 #include <pimg/detail/parallel.h>
 
 #include "decoder_file.h"
+#include "guarded.h"
 #include "raster/samples.h"
 #include "sequence/collapse_sequence.h"
 
@@ -47,19 +47,6 @@ Decoder::Decoder(Decoder&&) noexcept = default;
 Decoder& Decoder::operator=(Decoder&&) noexcept = default;
 
 namespace {
-
-/// Nothing thrown leaves the library; memory is what can run out.
-template<class Body>
-Status guarded(Body&& body)
-{
-    try {
-        return body();
-    } catch (const std::bad_alloc&) {
-        return Status::failure("pimg: out of memory");
-    } catch (const std::length_error&) {
-        return Status::failure("pimg: out of memory");
-    }
-}
 
 std::vector<StridedChannel> shifted(const std::vector<StridedChannel>& planes, std::uint32_t x, std::uint32_t y)
 {

@@ -2,13 +2,13 @@
 // Writing a file: samples -> integers -> colour transform; hierarchy -> mesh layer; tiles; collapse sequence.
 #include <algorithm>
 #include <cmath>
-#include <new>
 
 #include <pimg/codec.h>
 #include <pimg/detail/parallel.h>
 #include <pimg/simplify.h>
 
 #include "container.h"
+#include "guarded.h"
 #include "mesh_layer/gouraud.h"
 #include "mesh_layer/mesh_layer.h"
 #include "raster/raster_tile.h"
@@ -330,7 +330,7 @@ Status encode(const PictureDesc& desc, const std::vector<ConstStridedChannel>& s
     for (const Attribute& a : desc.attributes)
         if (a.name.size() > 65535 || a.type.size() > 255 || a.value.size() > 0x7fffffffu)
             return Status::failure("pimg: an attribute is too large");
-    try {
+    return guarded([&] {
         EncodeStats mine;
         Bytes bytes;
         const Status done = Encoder(desc, samples, options).run(bytes, mine);
@@ -340,9 +340,7 @@ Status encode(const PictureDesc& desc, const std::vector<ConstStridedChannel>& s
                 *stats = mine;
         }
         return done;
-    } catch (const std::bad_alloc&) {
-        return Status::failure("pimg: out of memory");
-    }
+    });
 }
 
 }  // namespace pimg

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include <pimg/codec.h>
 #include <pimg/sampling.h>
@@ -420,6 +421,33 @@ TEST(Codec, RefusesWhatIsOverTheLimits)
     wrong.desc.data.width = (1u << 20) + 1;
     EXPECT_FALSE(encode(wrong.desc, p.planes(), {}, out));
     EXPECT_FALSE(encode(p.desc, {}, {}, out));
+}
+
+TEST(Codec, NeverThrows)
+{
+    const Picture p = make_picture(40, 30, { SampleType::uint8, SampleType::uint8 });
+    const ParallelFor no_threads = [](std::size_t, const std::function<void(std::size_t)>&) {
+        throw std::runtime_error("no threads left");
+    };
+    const std::vector<std::uint8_t> before(3, 7);
+    std::vector<std::uint8_t> file = before;
+    EncodeOptions options;
+    options.tile = 16;
+    options.parallel = no_threads;
+    EXPECT_NE(encode(p.desc, p.planes(), options, file).error().find("no threads left"), std::string::npos);
+    options.parallel = {};
+    options.progress = [](float) -> bool {
+        throw 1;
+    };
+    EXPECT_FALSE(encode(p.desc, p.planes(), options, file));
+    EXPECT_EQ(file, before);
+
+    options.progress = {};
+    ASSERT_TRUE(encode(p.desc, p.planes(), options, file));
+    Decoder decoder;
+    ASSERT_TRUE(decoder.open(memory_source(file.data(), file.size())));
+    std::vector<std::uint8_t> pixels(p.pixels.size());
+    EXPECT_FALSE(decoder.read(interleaved(p.desc, (void*)pixels.data()), nullptr, no_threads));
 }
 
 }  // namespace

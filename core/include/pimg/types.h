@@ -59,7 +59,9 @@ private:
 /// Runs body(i) for every i in [0, n), in any order, possibly at once, and
 /// returns when all are done. Results never depend on which implementation is
 /// given; an empty function means a plain loop. Core owns no threads: hosts
-/// pass their pool.
+/// pass their pool. Bodies given to it never throw: when a piece of work throws,
+/// no other is begun, and once those at work have ended the first exception is
+/// thrown again on the thread that started the loop.
 using ParallelFor = std::function<void(std::size_t n, const std::function<void(std::size_t)>& body)>;
 
 /// Called now and then with the share of the work done, 0..1; returning false

@@ -242,13 +242,22 @@ void SweepPlan::for_splits(const ParallelFor& parallel, const std::function<void
     // Tasks are taken in order; who has one whose stage has not begun waits for tasks that others are at. Waking
     // threads anew for each stage would take longer than a stage.
     std::atomic<std::size_t> next { 0 }, done { 0 };
+    std::atomic<bool> failed { false };  // a body has thrown: what waits for it would wait for ever
     const std::size_t workers = std::min<std::size_t>(m_tasks.size(), 64);
     run(parallel, workers, [&](std::size_t) {
         for (std::size_t task; (task = next.fetch_add(1, std::memory_order_relaxed)) < m_tasks.size();) {
-            for (int waits = 0; done.load(std::memory_order_acquire) < m_tasks[task].after; ++waits)
+            for (int waits = 0; done.load(std::memory_order_acquire) < m_tasks[task].after; ++waits) {
+                if (failed.load(std::memory_order_relaxed))
+                    return;
                 if (waits > 1000)
                     std::this_thread::yield();
-            body(m_tasks[task].first, m_tasks[task].last);
+            }
+            try {
+                body(m_tasks[task].first, m_tasks[task].last);
+            } catch (...) {
+                failed = true;
+                throw;
+            }
             done.fetch_add(1, std::memory_order_acq_rel);
         }
     });

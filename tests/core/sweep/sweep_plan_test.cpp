@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <stdexcept>
+
+#include <pimg/detail/parallel.h>
 #include <pimg/sampling.h>
 #include <pimg/simplify.h>
 
@@ -113,6 +117,44 @@ TEST(SweepPlan, CallsEverySplitOnce)
     EXPECT_GT(ranges, 4u);  // something to share
     EXPECT_LT(ranges, plan.levels() / 100);
     EXPECT_LE(plan.memory(), 45 * h.mesh_pixels());
+}
+
+TEST(SweepPlan, EndsWhenABodyThrows)
+{
+    const test::Picture p = test::scene(333, 258);
+    Hierarchy h;
+    std::vector<Bands> bands;
+    ASSERT_TRUE(simplify({ p.width, p.height, { { p.samples.data() } } }, {}, h, bands).ok());
+    const SweepPlan plan(h);
+    // The first range is waited for by all others, the last by none.
+    for (Level thrower : { Level(0), plan.levels() / 2, plan.levels() - 1 })
+        for (const ParallelFor& parallel : { ParallelFor(), test::threads(4) })
+            EXPECT_THROW(plan.for_splits(parallel,
+                                         [&](Level first, Level last) {
+                                             if (first <= thrower && thrower < last)
+                                                 throw std::runtime_error("body");
+                                         }),
+                         std::runtime_error)
+                << thrower;
+}
+
+TEST(ParallelFor, ThrowsTheFirstExceptionWhenAllHaveStopped)
+{
+    // test::threads() itself would end the program if a body threw.
+    for (const ParallelFor& parallel : { ParallelFor(), test::threads(4) }) {
+        std::atomic<int> begun { 0 }, ended { 0 };
+        const auto body = [&](std::size_t i) {
+            ++begun;
+            if (i == 37) {
+                ++ended;
+                throw std::runtime_error("body");
+            }
+            ++ended;
+        };
+        EXPECT_THROW(run(parallel, 100, body), std::runtime_error);
+        EXPECT_GE(begun, 1);
+        EXPECT_EQ(begun, ended);
+    }
 }
 
 }  // namespace

@@ -3,21 +3,56 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
+#include <exception>
 #include <functional>
 
 #include <pimg/types.h>
 
 namespace pimg {
 
-/// Runs body(i) for every i below n; one after the other without `parallel`.
+/// Keeps the first exception of bodies that run at once, for the thread that waits for them.
+class FirstException {
+public:
+    /// Runs body() unless one has thrown already.
+    template<class Body>
+    void guard(Body&& body)
+    {
+        if (m_thrown.load(std::memory_order_relaxed))
+            return;
+        try {
+            body();
+        } catch (...) {
+            if (!m_thrown.exchange(true))
+                m_exception = std::current_exception();
+        }
+    }
+
+    /// To be called when no body runs any more.
+    void rethrow() const
+    {
+        if (m_exception)
+            std::rethrow_exception(m_exception);
+    }
+
+private:
+    std::atomic<bool> m_thrown { false };
+    std::exception_ptr m_exception;
+};
+
+/// Runs body(i) for every i below n; one after the other without `parallel`. When a body throws, no other is begun, and
+/// the first exception is thrown again when all have ended, whatever `parallel` does about exceptions.
 inline void run(const ParallelFor& parallel, std::size_t n, const std::function<void(std::size_t)>& body)
 {
-    if (parallel && n > 1)
-        parallel(n, body);
-    else
+    if (!parallel || n <= 1) {
         for (std::size_t i = 0; i < n; ++i)
             body(i);
+        return;
+    }
+    FirstException first;
+    parallel(n, [&](std::size_t i) { first.guard([&] { body(i); }); });
+    first.rethrow();
 }
 
 constexpr std::size_t kBatch = 1 << 14;

@@ -50,7 +50,8 @@ public:
     void set_base(const std::vector<float>& base, float factor, float* values) const;
 
     /// Calls body(first, last) for ranges that together are all splits, each after those it depends on, and several
-    /// at once if `parallel` has threads for them.
+    /// at once if `parallel` has threads for them. When a body throws, the other threads stop soon, and the exception
+    /// is thrown again.
     void for_splits(const ParallelFor& parallel, const std::function<void(Level first, Level last)>& body) const;
 
     /// Sweeps such a range; detail_of(i) returns the detail of the plan's split i.

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The border of the library, which no exception crosses.
+#pragma once
+
+#include <exception>
+#include <new>
+#include <stdexcept>
+#include <string>
+
+#include <pimg/types.h>
+
+namespace pimg {
+
+/// What body() returns; what it throws, from memory that runs out to the caller's own callbacks, as a failure.
+template<class Body>
+Status guarded(Body&& body)
+{
+    try {
+        return body();
+    } catch (const std::bad_alloc&) {
+        return Status::failure("pimg: out of memory");
+    } catch (const std::length_error&) {
+        return Status::failure("pimg: out of memory");
+    } catch (const std::exception& e) {
+        return Status::failure(std::string("pimg: stopped by an exception: ") + e.what());
+    } catch (...) {
+        return Status::failure("pimg: stopped by an exception that says nothing of itself");
+    }
+}
+
+}  // namespace pimg
