@@ -182,13 +182,13 @@ TEST(Codec, TheHeaderSaysHowManyVerticesTheMeshLayerHas)
     for (const float share : { 0.002f, kMeshLayerShare, 0.2f }) {
         EncodeOptions options;
         options.vertices = share;
-        const auto file = encoded(p, options);
+        std::vector<std::uint8_t> file;
+        EncodeStats stats;  // not ReadInfo: a whole file may be read without its mesh layer
+        ASSERT_TRUE(encode(p.desc, p.planes(), options, file, &stats));
         Decoder decoder;
         ASSERT_TRUE(decoder.open(memory_source(file.data(), file.size())));
-        std::vector<std::uint8_t> pixels;
-        ReadInfo info;
-        ASSERT_TRUE(decode(file.data(), file.size(), pixels, &info));
-        EXPECT_EQ(decoder.vertices(), info.vertices);
+        EXPECT_GT(decoder.vertices(), 0u);
+        EXPECT_EQ(decoder.vertices(), stats.mesh_vertices);
     }
 }
 
