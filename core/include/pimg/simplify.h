@@ -27,7 +27,7 @@ struct SimplifyOptions {
     Progress progress;
     const InitialMesh* initial = nullptr;  ///< deprecated, use `start`; a mesh that is copied there if that is empty
     Metric metric = Metric::volume;
-    InitialMesh start;  ///< mesh to start from (sampling.h); empty: one vertex per pixel
+    InitialMesh start {};  ///< mesh to start from (sampling.h); empty: one vertex per pixel
 };
 
 /// What building returns besides the hierarchy.
