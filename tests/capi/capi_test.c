@@ -135,7 +135,7 @@ static void test_errors(const pimg_image* image)
         { "hdr_compress:betta=1", "unknown option \"betta\"" },
         { "hdr_compress:beta", "expected key=value" },
         { "hdr_compress:=3", "expected key=value" },
-        { "paint:canvas=\"1,1,1", "end with a quote" },
+        { "paint:canvas=\"1,1,1", "end with one" },
         { "sharpen", "unknown filter" },
         { "", "unknown filter" },
         { "level:faces=3:splits=4", "only one of them" },

@@ -4,6 +4,7 @@
 
 #include <pimg/bands.h>
 #include <pimg/brush.h>
+#include <pimg/channels.h>
 #include <pimg/codec.h>
 #include <pimg/colour.h>
 #include <pimg/direction.h>

@@ -201,7 +201,7 @@ const std::vector<Option<BuildOptions>>& option_table<BuildOptions>()
           { "metric", 0, 0, "", "volume|quadric|exact", "cost of a collapse; the last two are slow, to compare" } },
         { &T::incolorspace,
           { "incolorspace", 0, 0, "", "",
-            "colour space of the picture; metadata, else sRGB for whole numbers, else linear" } },
+            "colour space of the picture; metadata, else sRGB for integers, else linear" } },
         { &T::mesh, { "mesh", 0, 0, "", "full|adaptive", "a vertex for every pixel, or fewer: faster, still exact" } },
         { &T::density, { "density", 1e-6, 1, "", "", "share of the pixels an adaptive mesh keeps" } },
         { &T::control,

@@ -260,7 +260,7 @@ TEST(mosaic, one_tile_colour_between_joints)
         joints += v > 5.0f;
     EXPECT_GT(joints, 300u);
     options.colour = "mauve";
-    EXPECT_NE(iba::mosaic(src, options).geterror().find("color: \"mauve\""), std::string::npos);
+    EXPECT_NE(iba::mosaic(src, options).geterror().find("colour: \"mauve\""), std::string::npos);
 }
 
 TEST(ink, is_black_on_white_and_exports_lines)
