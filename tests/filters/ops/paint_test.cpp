@@ -18,7 +18,7 @@ using OIIO::ROI;
 namespace {
 
 /// A scene in linear light, from -0.1 to some thousand, with alpha.
-ImageBuf picture(int width, int height, OIIO::TypeDesc type = OIIO::TypeDesc::FLOAT, int channels = 4)
+ImageBuf picture(int width, int height, const OIIO::TypeDesc& type = OIIO::TypeDesc::FLOAT, int channels = 4)
 {
     ImageSpec spec(width, height, channels, type);
     if (channels == 4)
