@@ -12,27 +12,13 @@ namespace pimgtool {
 namespace {
 
 using pimg::format;
+using pimg::quoted_json;
 
 int thread_count()
 {
     int threads = 0;
     OIIO::getattribute("threads", threads);
     return threads;
-}
-
-/// A JSON string; file names may hold anything.
-std::string quoted(const std::string& text)
-{
-    std::string result = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\')
-            result += '\\';
-        if (static_cast<unsigned char>(c) < 0x20)
-            result += format("\\u{:04x}", int(c));
-        else
-            result += c;
-    }
-    return result + '"';
 }
 
 }  // namespace
@@ -106,7 +92,7 @@ std::string Stats::json() const
         out += &h == &m_hierarchies.front() ? "\n" : ",\n";
         out += format("    {{ \"name\": {}, \"width\": {}, \"height\": {}, \"channels\": {}, \"type\": \"{}\", "
                       "\"guide\": \"{}\",\n",
-                      quoted(h.name), h.width, h.height, h.channels, h.type, h.guide);
+                      quoted_json(h.name), h.width, h.height, h.channels, h.type, h.guide);
         out += format("      \"vertices\": {}, \"splits\": {}, \"faces\": {}, \"base_vertices\": {}, "
                       "\"base_faces\": {}, \"bytes\": {} }}",
                       h.vertices, h.splits, h.faces, h.base_vertices, h.base_faces, h.bytes);

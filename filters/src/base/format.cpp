@@ -28,4 +28,18 @@ std::string with_words_shortened(const std::string& message)
     return result;
 }
 
+std::string quoted_json(const std::string& text)
+{
+    std::string result = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\')
+            result += '\\';
+        if (static_cast<unsigned char>(c) < 0x20)
+            result += format("\\u{:04x}", int(c));
+        else
+            result += c;
+    }
+    return result + '"';
+}
+
 }  // namespace pimg

@@ -10,7 +10,6 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
-#include <exception>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -18,6 +17,8 @@
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/parallel.h>
 #include <OpenImageIO/thread.h>
+
+#include <pimg/detail/parallel.h>
 
 namespace pimg {
 
@@ -38,14 +39,8 @@ public:
     /// Takes the next item until none is left.
     void work()
     {
-        try {
-            for (std::size_t i; (i = m_next.fetch_add(1, std::memory_order_relaxed)) < m_n;)
-                (*m_body)(i);
-        } catch (...) {
-            std::lock_guard<std::mutex> lock(m_mutex);
-            m_thrown = std::current_exception();
-            m_next = m_n;
-        }
+        for (std::size_t i; (i = m_next.fetch_add(1, std::memory_order_relaxed)) < m_n;)
+            m_first.guard([&] { (*m_body)(i); });
     }
 
     /// What a pool thread does.
@@ -73,8 +68,7 @@ public:
         std::unique_lock<std::mutex> lock(m_mutex);
         m_closed = true;
         m_idle.wait(lock, [&] { return m_helping == 0; });
-        if (m_thrown)
-            std::rethrow_exception(m_thrown);
+        m_first.rethrow();
     }
 
 private:
@@ -85,7 +79,7 @@ private:
     std::mutex m_mutex;
     std::condition_variable m_idle;
     bool m_closed = false;
-    std::exception_ptr m_thrown;
+    FirstException m_first;
 };
 
 }  // namespace
@@ -111,19 +105,11 @@ void run_without_foreign_tasks(const std::function<void()>& body)
 {
     // OpenImageIO's loops stay on their thread when they are called from within one of its loops, even one of a single
     // item on the calling thread. An exception must not pass through it, or its count of nested loops would stay wrong.
-    std::exception_ptr thrown;
+    FirstException first;
     OIIO::parallel_for_chunked(
-        std::int64_t(0), std::int64_t(1), 1,
-        [&](std::int64_t, std::int64_t) {
-            try {
-                body();
-            } catch (...) {
-                thrown = std::current_exception();
-            }
-        },
+        std::int64_t(0), std::int64_t(1), 1, [&](std::int64_t, std::int64_t) { first.guard(body); },
         OIIO::paropt(1, OIIO::paropt::SplitDir::Y, 1));
-    if (thrown)
-        std::rethrow_exception(thrown);
+    first.rethrow();
 }
 
 }  // namespace pimg

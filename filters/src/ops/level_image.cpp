@@ -12,11 +12,13 @@
 
 namespace pimg {
 
-bool make_level(ProgressiveImage::Data& data, Level level, bool with_channels, const ParallelFor& parallel,
-                LevelPicture& picture, std::string& error)
+bool make_level(ProgressiveImage::Data& data, const LevelOptions& options, bool with_channels,
+                const ParallelFor& parallel, LevelPicture& picture, std::string& error)
 {
     const Hierarchy& hierarchy = data.hierarchy;
-    const Status status = refine(hierarchy, level, picture.mesh);
+    if (!ImageBufAlgo::find_level(hierarchy, options, picture.level, error))
+        return false;
+    const Status status = refine(hierarchy, picture.level, picture.mesh);
     error = status.error();
     if (!status || !with_channels)
         return status.ok();
@@ -28,7 +30,7 @@ bool make_level(ProgressiveImage::Data& data, Level level, bool with_channels, c
     std::vector<float*> outputs;
     picture.channels.assign(channels->bands.size(), std::vector<float>(hierarchy.mesh_pixels()));
     for (std::size_t i = 0; i < channels->bands.size(); ++i) {
-        values.push_back(values_at(hierarchy, channels->bands[i], level));
+        values.push_back(values_at(hierarchy, channels->bands[i], picture.level));
         inputs.push_back(values.back().data());
         outputs.push_back(picture.channels[i].data());
     }
@@ -70,15 +72,13 @@ bool on_hierarchy::level_image(ImageBuf& dst, const ProgressiveImage& src, const
             return false;
         ProgressiveImage::Data& data = *src.data();
         const ParallelFor parallel = pool_loop(nthreads);
-        Level level = 0;
         LevelPicture picture;
         std::string error;
-        if (!find_level(data.hierarchy, options, level, error)
-            || !make_level(data, level, true, parallel, picture, error)) {
+        if (!make_level(data, options, true, parallel, picture, error)) {
             set_error(dst, error);
             return false;
         }
-        const Specials specials = level == data.hierarchy.levels() ? Specials::restored : Specials::replaced;
+        const Specials specials = picture.level == data.hierarchy.levels() ? Specials::restored : Specials::replaced;
         write_channels(dst, data, roi, parallel, picture.channels, specials);
         return true;
     });

@@ -8,12 +8,14 @@ namespace pimg {
 
 /// The mesh of a level and the Gouraud-shaded colour channels it shows, one raster of the picture's size each.
 struct LevelPicture {
+    Level level = 0;
     Mesh mesh;
     std::vector<std::vector<float>> channels;
 };
 
-/// `with_channels` false: only the mesh. Returns false, with an error, only on a damaged hierarchy.
-bool make_level(ProgressiveImage::Data& data, Level level, bool with_channels, const ParallelFor& parallel,
-                LevelPicture& picture, std::string& error);
+/// The level the options ask for; `with_channels` false: only its mesh. Returns false, with an error, if they ask for
+/// several levels or the hierarchy is damaged.
+bool make_level(ProgressiveImage::Data& data, const LevelOptions& options, bool with_channels,
+                const ParallelFor& parallel, LevelPicture& picture, std::string& error);
 
 }  // namespace pimg

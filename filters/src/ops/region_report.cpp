@@ -79,20 +79,6 @@ std::string quoted_csv(const std::string& name)
     return '"' + OIIO::Strutil::replace(name, "\"", "\"\"", true) + '"';
 }
 
-std::string quoted_json(const std::string& name)
-{
-    std::string text = "\"";
-    for (const char c : name) {
-        if (c == '"' || c == '\\')
-            text += '\\';
-        if (static_cast<unsigned char>(c) < 0x20)
-            text += format("\\u{:04x}", int(c));
-        else
-            text += c;
-    }
-    return text + '"';
-}
-
 std::string csv(const Fields& record, bool header)
 {
     std::string line;

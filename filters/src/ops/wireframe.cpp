@@ -38,11 +38,9 @@ bool on_hierarchy::wireframe(ImageBuf& dst, const ProgressiveImage& src, const W
             return false;
         ProgressiveImage::Data& data = *src.data();
         const ParallelFor parallel = pool_loop(nthreads);
-        Level level = 0;
         LevelPicture picture;
         std::string error;
-        if (!find_level(data.hierarchy, options, level, error)
-            || !make_level(data, level, options.overlay, parallel, picture, error)) {
+        if (!make_level(data, options, options.overlay, parallel, picture, error)) {
             set_error(dst, error);
             return false;
         }

@@ -19,6 +19,9 @@ std::string format(const char* pattern, const Arguments&... arguments)
     return format_packed(pattern, fmt::make_format_args(arguments...));
 }
 
+/// The text as a JSON string, in quotation marks; names of files and channels may hold any character.
+std::string quoted_json(const std::string& text);
+
 /// Gives `picture` a message, as its errorfmt() does.
 inline void set_error(const OIIO::ImageBuf& picture, const std::string& message)
 {
