@@ -118,11 +118,7 @@ TEST(FilterTable, RegionsAndThreadsChangeNothing)
     const ImageBuf src = hdr_scene();
     ProgressiveImage progressive;
     ASSERT_TRUE(progressive.build(src)) << progressive.error();
-    ROI part = src.roi();
-    part.xbegin += 11;
-    part.xend -= 20;
-    part.ybegin += 7;
-    part.yend -= 3;
+    const ROI part = window_of(src);
     for (const Filter& row : filter_table()) {
         const BoundFilter filter = bound(row);
         ImageBuf whole, window;

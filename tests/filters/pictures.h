@@ -52,6 +52,17 @@ inline OIIO::ImageBuf hdr_scene(int width = 96, int height = 64, OIIO::TypeDesc 
     return buf;
 }
 
+/// A window of the picture that touches none of its sides.
+inline OIIO::ROI window_of(const OIIO::ImageBuf& src)
+{
+    OIIO::ROI part = src.roi();
+    part.xbegin += 11;
+    part.xend -= 20;
+    part.ybegin += 7;
+    part.yend -= 3;
+    return part;
+}
+
 inline std::vector<float> pixels(const OIIO::ImageBuf& buf, OIIO::ROI roi = {})
 {
     const OIIO::ROI all = roi.defined() ? roi : buf.roi();
