@@ -57,8 +57,7 @@ private:
 std::uint64_t crossed_rows(const Mesh& mesh, const std::vector<Triangle>& triangles, std::uint32_t rows,
                            std::uint32_t of_rows);
 
-/// The most rows that may be crossed to show so many pixels (docs/format.md, section 5). Meshes made from pictures
-/// cross less than one row per pixel.
+/// The most rows that may be crossed to show so many pixels (docs/format.md, section 5). The writer keeps to it.
 inline std::uint64_t most_crossed_rows(std::uint64_t pixels, std::size_t triangles)
 {
     return 16 * pixels + 8 * std::uint64_t(triangles) + 65536;

@@ -37,8 +37,8 @@ public:
           m_total(m_mesh.alive())
     {
         m_sequence.channels = m_mesh.more_channels + 1;
-        m_sequence.records.reserve(
-            m_total);  // takes memory only as it fills; growing would need twice as much for a moment
+        // Takes memory only as it fills; growing would need twice as much for a moment.
+        m_sequence.records.reserve(m_total);
         pimg::run(options.parallel, m_mesh.tiles.size(), [&](std::size_t i) { start_tile(m_mesh, m_mesh.tiles[i]); });
     }
 

@@ -89,8 +89,8 @@ public:
         Index stage = std::max(m_last_uses[k.s].write.stage_for(tile), m_last_uses[k.s].read.stage_for(tile));
         for (const Index v : { k.at, k.bt, k.au, k.bu })
             stage = std::max(stage, m_last_uses[v].write.stage_for(tile));
-        if (stage >= StageAndTile::
-                kLastStage) {  // all the rest one after the other: only a hierarchy made for that needs as many
+        // All the rest one after the other: only a hierarchy made for that needs as many stages.
+        if (stage >= StageAndTile::kLastStage) {
             stage = StageAndTile::kLastStage;
             tile = StageAndTile::kFirstTile;
         }
