@@ -19,7 +19,7 @@ namespace pimg::test {
 /// Shown by every failed expectation on a bool from a filter.
 #define EXPECT_FILTER(dst, call) EXPECT_TRUE(call) << (dst).geterror()
 
-inline OIIO::ImageBuf picture(int width, int height, int channels, OIIO::TypeDesc type, int x0 = 0, int y0 = 0)
+inline OIIO::ImageBuf picture(int width, int height, int channels, const OIIO::TypeDesc& type, int x0 = 0, int y0 = 0)
 {
     OIIO::ImageSpec spec(width, height, channels, type);
     spec.x = x0;
@@ -30,7 +30,7 @@ inline OIIO::ImageBuf picture(int width, int height, int channels, OIIO::TypeDes
 }
 
 /// An HDR scene of about 14 stops: shade, a bright window with a soft edge, a lamp, texture; linear RGB.
-inline OIIO::ImageBuf hdr_scene(int width = 96, int height = 64, OIIO::TypeDesc type = OIIO::TypeFloat,
+inline OIIO::ImageBuf hdr_scene(int width = 96, int height = 64, const OIIO::TypeDesc& type = OIIO::TypeFloat,
                                 int channels = 3, float scale = 1.0f)
 {
     OIIO::ImageBuf buf = picture(width, height, channels, type, 5, -2);

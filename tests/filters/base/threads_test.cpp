@@ -163,6 +163,7 @@ TEST(ProgressiveImage, FilterNeedsNoneOfTheTasksInTheQueue)
         const std::shared_future<void> release = promise.get_future().share();
         std::atomic<int> blocked { 0 };
         std::vector<std::future<void>> waiting;
+        waiting.reserve(2);
         for (int i = 0; i < 2; ++i)
             waiting.push_back(tasks->push([&, release](int) {
                 ++blocked;
@@ -209,6 +210,7 @@ TEST(ProgressiveImage, FiltersInTasksAndThreadsDoNotWaitForEachOther)
                 ++wrong;
         };
         std::vector<std::thread> threads;
+        threads.reserve(8);
         for (int t = 0; t < 8; ++t)
             threads.emplace_back([&, t] {
                 // No more: OpenImageIO's loops would leave the pool alone if its queue were long.

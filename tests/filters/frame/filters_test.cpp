@@ -87,7 +87,7 @@ std::vector<std::pair<std::string, std::function<bool(ImageBuf&, const Source&, 
 
 TEST(Filters, NeutralSettingsReturnTheSource)
 {
-    for (OIIO::TypeDesc type : { OIIO::TypeUInt8, OIIO::TypeUInt16, OIIO::TypeHalf, OIIO::TypeFloat })
+    for (const OIIO::TypeDesc& type : { OIIO::TypeUInt8, OIIO::TypeUInt16, OIIO::TypeHalf, OIIO::TypeFloat })
         for (int channels : { 1, 2, 3, 4, 5 }) {
             const ImageBuf src = hdr_scene(60, 40, type, channels, type.is_floating_point() ? 1.0f : 0.02f);
             ImageBuf low, enhanced;
