@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The intensities of a progressive image: for one channel, the values of the base mesh and the
-// details (dt, du) of every split (paper, section 3.3). Any channel can be analysed onto an
-// existing hierarchy; a filter is a gain on the details; synthesis is one linear sweep.
+// The intensities of a progressive image (paper, section 3.3): for one channel, the values of the base mesh and the
+// details (dt, du) of every split. analyse() finds them for any channel on an existing hierarchy. A filter multiplies
+// the details by a gain. synthesise() makes pixels of them again, in one pass over the splits.
 #pragma once
 
 #include <algorithm>
@@ -11,68 +11,72 @@
 
 namespace pimg {
 
-/// Details of one split: intensity minus what the coarser mesh predicts there.
+/// The details of one split: the intensity of t minus what the coarser mesh predicts at its place, and the same for u.
 struct Detail {
     float t, u;
 };
 
-/// One channel on a hierarchy. `base[v]` is the value of base vertex v, and `details[i]` belongs to split i. `residual`
-/// is the finest band: for each mesh pixel, the channel minus the Gouraud image of the finest mesh. It is empty, which
-/// means 0 everywhere, when every pixel is a vertex.
+/// One channel on a hierarchy, in the channel's own units. `base[v]` is the value of base vertex v, and `details[i]`
+/// belongs to split i. `residual` is the finest band: for each mesh pixel, the channel minus what the finest mesh
+/// interpolates there. It is empty when every pixel is a vertex, and then counts as 0 everywhere.
 struct Bands {
     std::vector<float> base;
     std::vector<Detail> details;
     std::vector<float> residual;
 
-    /// Largest |detail| of all splits, 0 for none.
+    /// The largest absolute value of all details; 0 if there are none.
     float largest_detail() const;
 };
 
-/// Analyses channels onto a hierarchy. Each holds one finite value per mesh pixel, row-major (to_mesh_pixels()).
-/// As for the guide, the value of a coarse vertex preserves the volume under the surface, so every M_i
-/// has the channel's mean; that takes the topology of every level, so the splits are replayed, once for all
-/// channels. Synthesis with untouched details returns the samples to within one rounding.
-/// Fails only on a damaged hierarchy.
+/// Analyses channels onto a hierarchy: bands[c] receives the base values, details and residual of channels[c]. Each
+/// channel holds one finite value per mesh pixel, row-major (to_mesh_pixels()). Values of coarse vertices preserve the
+/// volume under the surface, as they do for the guide, so every M_i has the channel's mean. This takes the mesh of every
+/// level; all splits are replayed, once for all channels together. Synthesis with unchanged details returns the samples
+/// to within one rounding. Fails only on a damaged hierarchy.
 Status analyse(const Hierarchy& hierarchy, const std::vector<const float*>& channels, std::vector<Bands>& bands,
                const ParallelFor& parallel = {});
 
-/// Copies a picture's samples (row-major, width x height) to mesh pixels: the same, but for pictures one
-/// pixel wide or high, whose only column or row is repeated.
+/// Copies a picture's samples (row-major, width x height) to mesh pixels (row-major, mesh_width() x mesh_height()). They
+/// are the same samples, but for pictures one pixel wide or high, whose only column or row is repeated.
 std::vector<float> to_mesh_pixels(const Hierarchy& hierarchy, const float* samples);
 
-/// Makes level `level` the base mesh: the splits before it are forgotten.
+/// Makes M_i of level i = `level` the base mesh, and drops the splits before it. `level` is 0 .. levels(). Fails only on
+/// a damaged hierarchy; nothing is then changed.
 Status rebase(Hierarchy& hierarchy, std::vector<Bands>& bands, Level level, const ParallelFor& parallel = {});
 
-/// Values of all vertices of level `level`, indexed by vertex number.
+/// The values of all vertices of M_i of level i = `level`, indexed by vertex number. A level above the finest counts as
+/// the finest.
 std::vector<float> values_at(const Hierarchy& hierarchy, const Bands& bands, Level level);
 
-/// One pass from coarse to fine over the first `levels` splits: values[v] of every vertex of that level, where
-/// gain(i, detail) returns the detail to use for split i. `values` holds base_vertices() + levels floats.
+/// Computes the values of all vertices of level `levels`, in one pass from coarse to fine over the first `levels` splits.
+/// gain(i, detail) returns the detail to use for split i. `values` has room for base_vertices() + levels floats;
+/// values[v] receives the value of vertex v.
 template<class Gain>
 void sweep(const Hierarchy& hierarchy, const Bands& bands, float* values, Level levels, Gain&& gain);
 
-/// The part of sweep() for the splits [first, last): `values` holds the vertices of level `first` and receives those of
-/// level `last`; detail_of(i) returns the detail of split i.
+/// The part of sweep() for the splits [first, last). `values` holds the values of the vertices of level `first`, and
+/// afterwards those of level `last`. detail_of(i) returns the detail to use for split i.
 template<class DetailOf>
 void sweep_splits(const Hierarchy& hierarchy, Level first, Level last, float* values, DetailOf&& detail_of);
 
-/// sweep() at the finest level without a gain, written to the mesh pixels (row-major), and the residual.
+/// Makes the channel's samples from its bands, unchanged: sweeps to the finest level, writes the values to the mesh pixels
+/// (row-major) and adds the residual.
 void synthesise(const Hierarchy& hierarchy, const Bands& bands, float* samples, const ParallelFor& parallel = {});
 
-/// Moves values of the finest level from vertex order to mesh pixels (row-major), and interpolates the
-/// pixels between them: the Gouraud image of the finest mesh.
+/// Writes values of the finest level, one per vertex, to the mesh pixels (row-major), and interpolates the pixels that are
+/// no vertex.
 void scatter(const Hierarchy& hierarchy, const float* values, float* samples, const ParallelFor& parallel = {});
 
-/// The second half of scatter(): interpolates the pixels between the vertices. `samples` holds those of the vertices.
+/// The second half of scatter(): `samples` holds the values of the pixels that are vertices; the others are interpolated.
 void interpolate_between(const Hierarchy& hierarchy, float* samples, const ParallelFor& parallel = {});
 
-/// Adds gain(pixel, residual) to the samples of all mesh pixels; nothing without a residual.
+/// Adds gain(pixel, residual) to the sample of every mesh pixel. Does nothing if there is no residual.
 template<class Gain>
 void add_residual(const Bands& bands, float* samples, Gain&& gain);
 
-/// Turns details that hold the true values of t and u into details proper, and fills the residual from the channel's
-/// samples (per mesh pixel). Done against the values synthesis will have at each level, so that no
-/// rounding adds up over the levels.
+/// The last step of analysis. On entry bands.details hold the values of t and u themselves; on return they hold details,
+/// that is values minus predictions. It also fills the residual from the channel's samples, one per mesh pixel. Predictions
+/// are made from the values that synthesis will compute, so that rounding errors do not add up over the levels.
 void values_to_details(const Hierarchy& hierarchy, const float* samples, Bands& bands);
 
 template<class Gain>

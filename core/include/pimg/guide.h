@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What decides the geometry of a progressive image.
+// The guide: the channels of a picture that decide the geometry of its hierarchy.
 #pragma once
 
 #include <vector>
 
 namespace pimg {
 
-/// Most channels that may decide the geometry together.
+/// The most channels a guide may have.
 constexpr int kMaxGuideChannels = 16;
 
-/// One of the channels that decide the geometry: finite samples, one per pixel, row-major. One unit is about one
-/// step of an 8-bit picture: |samples| should be of the order of 255 so that noise and features are told apart
-/// on the right scale.
+/// One channel of a guide: finite samples, one per pixel, row-major. The samples should span a range of the order of
+/// 255, so that one unit is about one step of an 8-bit picture: heights and distances in pixels are compared with each
+/// other during simplification, and this is the scale it was tuned for.
 struct GuideChannel {
     const float* samples = nullptr;
-    float weight = 1.0f;  ///< of its volume error in the cost, > 0
+    float weight = 1.0f;  ///< factor on its volume error in the cost of a collapse; above 0
 };
 
-/// What decides the geometry. With several channels each keeps its own volume, so its own intensity follows from the
-/// position, and the one position they share minimises the weighted sum of their volume errors.
+/// The channels that decide the geometry, 1 to kMaxGuideChannels of them, and their size in pixels. They share the
+/// position of each vertex: the one that minimises the weighted sum of the channels' volume errors. At that position
+/// every channel has its own intensity, the one that keeps its own volume.
 struct Guide {
     int width = 0, height = 0;
     std::vector<GuideChannel> channels;

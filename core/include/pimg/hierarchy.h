@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The geometry of a progressive image (paper, section 3.3): the base mesh, the vertex splits that refine it, and
-// the prediction stencil of each split. It holds no intensities; those are in Bands (bands.h). It does not change
-// once built, so threads may share it.
+// The geometry of a progressive image (paper, section 3.3): the base mesh, the vertex splits that refine it, and the
+// prediction stencil of each split. It holds no intensities; those are in Bands (bands.h). Once built it does not
+// change, so any number of threads may read it. "The paper", here and in all headers, is Lee, Yoon and Lee (2008).
 #pragma once
 
 #include <cstddef>
@@ -12,21 +12,22 @@
 
 namespace pimg {
 
-/// One vertex split. Split i makes vertex base_vertices + i (= u) out of s,
-/// whose number t keeps; so level i uses exactly the vertices below base_vertices + i.
+/// One vertex split. Split i divides vertex s into t, which keeps the number of s, and u, which gets the number
+/// base_vertices() + i. So the vertices of level i are those with numbers below base_vertices() + i.
 struct Split {
-    Index s;       ///< vertex that is split; keeps its number as t
-    Index vl, vr;  ///< cut vertices, left and right of t -> u; kGhost on the border
-    Point t, u;    ///< positions after the split
+    Index s;       ///< the vertex that is split; t keeps its number
+    Index vl, vr;  ///< the vertices left and right of t -> u (drawing in mesh.h); kGhost outside the picture
+    Point t, u;    ///< positions of t and u
 };
 
-/// One number for each of the two vertices a split makes.
+/// One number for each of the two vertices that a split makes, such as the size of its piece.
 struct SplitPair {
     float t, u;
 };
 
-/// Where t and u lie in the coarser mesh: the face (s, a, b) and two of the
-/// three barycentric weights, that of s being 1 - wa - wb.
+/// How the coarser mesh predicts the intensities of t and u. `at` and `bt` are the other two vertices of the face of s
+/// that t lies in, and `wat` and `wbt` their barycentric weights; the weight of s is 1 minus these two. `au`, `bu`,
+/// `wau` and `wbu` are the same for u. With the intensities z:
 ///     prediction of t = z[s] + wat (z[at] - z[s]) + wbt (z[bt] - z[s])
 struct Stencil {
     Index s;
@@ -34,61 +35,64 @@ struct Stencil {
     float wat, wbt, wau, wbu;
 };
 
-/// A pixel that is not a vertex of the finest mesh. a, b and c are the mesh pixels of the corners of the face that
-/// covers it, the smallest first; wb and wc are the barycentric weights of b and c.
+/// A mesh pixel that is not a vertex of the finest mesh. a, b and c are the mesh pixels at the corners of the face that
+/// covers it, the smallest first. wb and wc are the barycentric weights of b and c. With the intensities z:
 ///     interpolation = z[a] + wb (z[b] - z[a]) + wc (z[c] - z[a])
 struct PixelStencil {
     Index pixel, a, b, c;
     float wb, wc;
 };
 
-/// Level of a hierarchy: the number of splits applied to the base mesh.
+/// A level of a hierarchy: the number of splits applied to the base mesh, 0 .. Hierarchy::levels().
 using Level = Index;
 
+/// Base mesh, splits and stencils of one picture. Splits are stored from coarse to fine, and `stencils` and `costs` have
+/// one entry per split.
 class Hierarchy {
 public:
-    int width = 0, height = 0;       ///< size of the picture in pixels
-    std::vector<Point> base_points;  ///< positions of the base vertices
-    std::vector<Triangle> base_triangles;
-    std::vector<Split> splits;      ///< coarse to fine
-    std::vector<Stencil> stencils;  ///< of each split
-    std::vector<float> costs;       ///< volume error each split removes; never increases
-    std::vector<Index> pixels;      ///< mesh pixel (row-major) each vertex is at the finest level
-    std::vector<PixelStencil>
-        between;  ///< the other pixels, increasing: none unless the initial mesh was a simpler one
+    int width = 0, height = 0;             ///< size of the picture in pixels
+    std::vector<Point> base_points;        ///< positions of the base vertices
+    std::vector<Triangle> base_triangles;  ///< triangles of the base mesh
+    std::vector<Split> splits;             ///< coarse to fine
+    std::vector<Stencil> stencils;         ///< prediction of each split
+    std::vector<float> costs;   ///< cost of the collapse that each split undoes; never increases from split to split
+    std::vector<Index> pixels;  ///< number (row-major) of the mesh pixel where each vertex is at the finest level
+    std::vector<PixelStencil> between;  ///< mesh pixels that are no vertex, increasing; empty with one vertex per pixel
 
     Index base_vertices() const { return Index(base_points.size()); }
     Level levels() const { return Level(splits.size()); }
     Index vertices() const { return base_vertices() + levels(); }
     bool empty() const { return base_points.empty(); }
 
-    /// Size of the mesh's grid. A picture one pixel wide or high has no area: its mesh repeats
-    /// the row or column, so that the grid is never below 2 x 2.
+    /// Size of the mesh's grid in pixels. It is the picture's, but for pictures one pixel wide or high: these have no
+    /// area, so their only column or row is repeated, and the grid is never below 2 x 2.
     int mesh_width() const { return width < 2 ? 2 : width; }
     int mesh_height() const { return height < 2 ? 2 : height; }
     std::size_t mesh_pixels() const { return std::size_t(mesh_width()) * std::size_t(mesh_height()); }
+    /// The lower right corner of the grid, in lattice units.
     Point extent() const { return { (mesh_width() - 1) * kSubpixels, (mesh_height() - 1) * kSubpixels }; }
 
-    /// Level with at most the given number of vertices or faces (at least the base), or
-    /// the coarsest level whose remaining splits all cost no more than `error`.
+    /// The finest level with at most `count` vertices, or at most `count` faces; level 0 if the base mesh has more. And
+    /// the coarsest level from which no further split costs more than `error`, in the units of `costs`.
     Level level_of_vertices(double count) const;
     Level level_of_faces(double count) const;
     Level level_of_error(double error) const;
 
+    /// Bytes held.
     std::size_t memory() const;
 };
 
-/// Makes the mesh M_i of level i = `level`, with its topology, by replaying the first `level` splits. `coarse`, if not
-/// null, receives for each of these splits the position of the vertex s before the split. Fails only on a damaged
-/// hierarchy.
+/// Makes the mesh M_i of level i = `level` by applying the first `level` splits to the base mesh. A level above the finest
+/// counts as the finest. If `coarse` is not null, it receives the position that the vertex s of each of these splits had
+/// before the split. Fails only on a damaged hierarchy; `mesh` is then unchanged.
 Status refine(const Hierarchy& hierarchy, Level level, Mesh& mesh, std::vector<Point>* coarse = nullptr);
 
-/// Computes `between` from the other members. A file does not store it, so call this after reading a hierarchy from
-/// one. Fails only on a damaged hierarchy.
+/// Computes `between` from the other members. Files do not store it, so whoever reads a hierarchy from a file calls
+/// this afterwards. Fails only on a damaged hierarchy.
 Status find_pixels_between(Hierarchy& hierarchy);
 
-/// Checks all numbers and stencils, and the topology by replaying every split. It is slow, and meant for tests and
-/// tools.
+/// Checks a hierarchy: all its numbers, every stencil against the mesh it belongs to, and the finest mesh. For that it
+/// replays every split, which is slow; it is meant for tests and tools. The message names what is wrong.
 Status validate(const Hierarchy& hierarchy);
 
 }  // namespace pimg

@@ -20,9 +20,10 @@
 
 namespace pimg {
 
+/// A triangle by the numbers of its three vertices, positively oriented (doubled_area() in types.h is above 0).
 using Triangle = std::array<Index, 3>;
 
-/// The neighbours of a vertex as a range.
+/// The neighbours of one vertex, in the order of its Ring. Valid until the mesh changes.
 struct RingView {
     const Index* first;
     int degree;
@@ -31,14 +32,15 @@ struct RingView {
     Index operator[](int i) const { return first[i]; }
 };
 
-/// A triangulation of the rectangle [0, width-1] x [0, height-1] pixels.
-/// Vertices are numbered 0 .. size()-1 and all are in use.
+/// A triangulation of the rectangle between the centres of the picture's four corner pixels, [0, width-1] x
+/// [0, height-1]. Vertices are numbered 0 .. size()-1, and all of these numbers are in use.
 class Mesh {
 public:
     Mesh() = default;
 
-    /// From positively oriented triangles over `points`; `extent` is the lower
-    /// right corner. Fails when they are no such triangulation.
+    /// Makes a mesh of positively oriented triangles over `points`. `extent` is the lower right corner of the
+    /// rectangle, in lattice units; the upper left one is (0, 0). Fails when the triangles do not triangulate the
+    /// rectangle; `mesh` is then unchanged.
     static Status from_triangles(std::vector<Point> points, const std::vector<Triangle>& triangles, Point extent,
                                  Mesh& mesh);
 
@@ -47,29 +49,32 @@ public:
     Point point(Index v) const { return m_points[v]; }
     RingView ring(Index v) const { return { m_rings[v].v.data(), m_degrees[v] }; }
 
-    /// Every triangle once, smallest vertex number first, in order of that vertex.
+    /// Every triangle once, beginning with its smallest vertex number, sorted by that number.
     std::vector<Triangle> triangles() const;
-    /// Number of triangles: 2 n - 2 - border vertices.
+    /// Number of triangles: with n vertices, b of them on the border, 2 n - 2 - b.
     std::size_t triangle_count() const;
 
-    /// Splits s into t (number s, at `t`) and u (number size(), at `u`). vl and vr must be
-    /// neighbours of s; either may be kGhost. Returns false, leaving the mesh
-    /// untouched, when they are not or a ring would outgrow kMaxDegree.
+    /// Splits vertex s in two. One of them keeps the number s and moves to position `t`; the other gets the number
+    /// size() and position `u`. vl and vr must be different neighbours of s; either may be kGhost. Returns false and
+    /// leaves the mesh as it was when they are not, or when a vertex would get more than kMaxDegree neighbours.
     bool split(Index s, Index vl, Index vr, Point t, Point u);
 
-    /// Inverse of the last split: merges vertex size()-1 into its neighbour s at `p`.
-    /// Returns false when the edge does not exist or the link condition fails.
+    /// The inverse of the last split: removes vertex size()-1 by merging it into its neighbour s, which moves to `p`.
+    /// Returns false and leaves the mesh as it was when the two are no neighbours, when the link condition fails, that is
+    /// when they have other common neighbours than vl and vr, and when a vertex would get too many or too few
+    /// neighbours (fewer than 3, or more than kMaxDegree).
     bool collapse(Index s, Point p);
 
-    /// Checks every invariant: symmetric rings, one ghost per border vertex, closed
-    /// fans, positive triangles, corners in place, border on the sides, and area
-    /// equal to the rectangle's (so nothing overlaps and nothing is uncovered).
+    /// Checks every invariant of a mesh. Neighbourhood is mutual, and every ring closes. A border vertex has the ghost
+    /// as a neighbour once, and lies on a side of the rectangle. The four corners are vertices. Triangles are positively
+    /// oriented, and their areas add up to the rectangle's, so they cover it once. The message names what is wrong.
     Status validate() const;
 
+    /// Reserves memory for a mesh that will grow to `vertices` vertices.
     void reserve(std::size_t vertices);
 
-    /// Asks for the memory of a vertex, or of its neighbours, ahead of a split or collapse; of none if there is no such
-    /// vertex.
+    /// Hints to the processor that vertex v, or its neighbours, will be used soon. This only affects speed. Nothing
+    /// happens if there is no such vertex.
     void prefetch(Index v) const;
     void prefetch_around(Index v) const;
 

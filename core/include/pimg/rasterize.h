@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gouraud images and wireframes of a mesh M_i.
+// Pictures of a mesh M_i: its values interpolated over its triangles (Gouraud shading), and its edges as lines.
 #pragma once
 
 #include <vector>
@@ -9,14 +9,16 @@
 
 namespace pimg {
 
-/// Interpolates `channels` values per vertex (channel c of vertex v at values[c][v]) over the mesh and
-/// writes them at every pixel centre: samples[c] is row-major, mesh width x height.
-/// Returns the number of pixels no triangle covers: 0 for a valid mesh.
+/// Interpolates values given at the vertices linearly over each triangle, and writes the result at every pixel centre.
+/// values[c][v] is the value of channel c at vertex v. samples[c] receives channel c: one float per pixel of the mesh's
+/// grid, row-major; there must be as many entries in `samples` as in `values`. Pixels that no triangle covers are left
+/// as they were. Returns their number, which is 0 for a valid mesh. The result does not depend on `parallel`.
 std::size_t rasterize(const Mesh& mesh, const std::vector<const float*>& values, const std::vector<float*>& samples,
                       const ParallelFor& parallel = {});
 
-/// Coverage 0..1 of the mesh's edges, drawn `width` pixels wide and anti-aliased, row-major
-/// over an image `scale` times the mesh's size.
+/// Draws the mesh's edges as anti-aliased lines. Returns how much of each pixel they cover, from 0 to 1, row-major. The
+/// image has `scale` times the width and height of the mesh's grid, where `scale` is 1 or more. `line_width` is above 0,
+/// in pixels of that image.
 std::vector<float> wireframe(const Mesh& mesh, float line_width = 1.0f, int scale = 1);
 
 }  // namespace pimg

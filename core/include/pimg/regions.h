@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Segmentation (paper, section 4.2): adjacent pieces are merged greedily, cheapest border first, until one is left. The
-// picture is analysed once; the merges form a tree, and every number of regions is a cut through it.
+// Segmentation (paper, section 4.2). Neighbouring pieces are merged, those with the cheapest border first, until one
+// region is left. The merges form a tree, and any number of regions is a cut through this tree. So the picture is
+// analysed once, and every number of regions takes one pass.
 #pragma once
 
 #include <vector>
@@ -10,19 +11,19 @@
 
 namespace pimg {
 
-/// What makes a border cheap. With areas n1, n2, distance D of the means, mean strength E of the gradient along the
-/// shared border and its length l, it costs
+/// What the cost of a border depends on. For regions of n1 and n2 pixels whose mean colours have the distance D, with a
+/// common border of l pixel sides along which the gradient has the mean strength E, the cost is
 ///     w (floor + D^2 + boundary E) (sqrt(min(n1, n2)) / l)^(1/8),    w = n1 n2 / (n1 + n2).
-/// w D^2 is what merging adds to the variance inside the regions (Ward 1963). The gradient keeps apart what only
-/// differs at the border; the last factor favours long borders, so regions grow compact. How the defaults were found:
-/// docs/internals.md.
+/// w D^2 is what merging adds to the sum of squared deviations inside the regions (Ward 1963). The gradient keeps regions
+/// apart that only differ near their border. The last factor makes long borders cheaper, so that regions grow compact.
+/// docs/internals.md says how the defaults were found.
 struct RegionOptions {
-    float boundary = 8.0f;   ///< weight of the gradient along the border, in units of the channels, 0 ..
-    float floor = 1.0f;      ///< squared distance below which all differences look alike, > 0
-    float smoothing = 1.0f;  ///< standard deviation, in pixels, of the Gaussian under the gradient, 0 ..
+    float boundary = 8.0f;   ///< weight of the gradient E along the border, 0 or more
+    float floor = 1.0f;      ///< added to squared distances, so that differences far below it do not count; above 0
+    float smoothing = 1.0f;  ///< standard deviation in pixels of the Gaussian filter before the gradient; 0: none
     Progress progress;
-    /// Pieces to start from, one number per pixel, such as DualPieces::labels(); their 4-connected parts
-    /// are what is merged. Null: every pixel is a piece.
+    /// The pieces to start from: one number per pixel, such as DualPieces::labels() returns. Their 4-connected parts are
+    /// merged. If null, every pixel is a piece.
     const std::vector<Index>* pieces = nullptr;
 };
 
@@ -33,13 +34,14 @@ struct [[deprecated("use a ChannelsView and RegionOptions::pieces")]] RegionInpu
     const std::vector<Index>* pieces = nullptr;
 };
 
-/// The merges of a picture's pieces. A coarser cut is a union of regions of every finer cut;
-/// regions are 4-connected.
+/// The merges of a picture's pieces. All regions are 4-connected, and a region is a union of regions of any larger number
+/// of regions.
 class RegionTree {
 public:
-    /// Merges the pieces of `picture`: one or more channels of finite samples, whose Euclidean distance is how different
-    /// two pixels look. Meant for CIELAB, where one unit is about the smallest difference one can see.
-    /// Fails on an empty picture, when `pieces` are not one number per pixel, and when `progress` asked to stop.
+    /// Merges the pieces of `picture`, which has 1 to 64 channels of finite samples and at most 2^30 pixels. How different
+    /// two pixels look is measured by the Euclidean distance of their samples. The defaults are meant for CIELAB, where
+    /// one unit is about the smallest difference one can see. Fails on pictures outside these limits, when `pieces` are
+    /// not one number per pixel, and when `progress` asked to stop; `tree` is then unchanged.
     static Status build(const ChannelsView& picture, const RegionOptions& options, RegionTree& tree);
 
     template<class Input, class = decltype(Input::pieces)>
@@ -51,19 +53,22 @@ public:
         return build(ChannelsView { input.width, input.height, input.channels }, options, tree);
     }
 
-    /// Pieces at the start: the largest number of regions there is.
+    /// The number of pieces at the start, which is the largest number of regions.
     Index leaves() const { return m_leaves; }
 
-    /// Region of every pixel when `regions` are left (1 .. leaves()), numbered from 0 in order of
-    /// their first pixel, row-major. O(pixels).
+    /// The region of every pixel, row-major, in a cut of `regions` regions. They are numbered from 0 in the order of their
+    /// first pixel. A number outside 1 .. leaves() counts as the nearer end of this range. Takes time proportional to the
+    /// number of pixels.
     std::vector<Index> labels(Index regions) const;
 
-    /// Number of regions left when every border costs more than `threshold`.
+    /// The number of regions when all merges that cost `threshold` or less have been made.
     Index regions_above(float threshold) const;
 
-    /// Cost of the merges, cheapest first; made monotone.
+    /// The cost of every merge, in the order they were made. A merge that was cheaper than one before it has the cost of
+    /// that one, so the costs never fall.
     const std::vector<float>& costs() const { return m_costs; }
 
+    /// Bytes held.
     std::size_t memory() const;
 
 private:

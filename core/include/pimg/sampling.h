@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A simpler initial mesh (paper, section 6): pixels chosen by halftoning a control map, triangulated after
-// Delaunay. Simplification can start from it instead of from one vertex per pixel; what it cannot
-// represent is the residual of Bands.
+// A simpler initial mesh (paper, section 6). Some of the pixels are chosen by halftoning a control map, and joined by a
+// Delaunay triangulation. Simplification can start from this mesh instead of from one vertex per pixel. What the mesh
+// cannot represent is kept in the residual of Bands, so the picture can still be restored exactly.
 //
 //     guide --control_map--> map --to_density--> probabilities --halftone--> pixels --triangulate--> InitialMesh
 #pragma once
@@ -13,59 +13,64 @@
 
 namespace pimg {
 
-/// What the density of vertices follows, summed over the guide's channels by weight.
+/// What the density of vertices follows: a weighted sum over the guide's channels of
 enum class Control {
-    gradient,   ///< squared differences to the four neighbours: the paper's squared gradient magnitude
-    curvature,  ///< squared second derivatives
+    gradient,   ///< squared differences to the four neighbours, for the paper's squared gradient magnitude
+    curvature,  ///< squared second derivatives (the Hessian's)
 };
 
 struct SamplingOptions {
-    double density = 1.0 / 3;  ///< largest fraction of the pixels kept, 0..1; less is kept where the map is 0
+    double density = 1.0
+        / 3;  ///< share of the pixels that become vertices, above 0, at most 1; fewer if the map is 0 in most places
     Control control = Control::gradient;
-    const float* map = nullptr;  ///< own control map: a value >= 0 per pixel, row-major; used instead of `control`
-    ParallelFor parallel;        ///< threads to use; the result does not depend on them
+    const float* map = nullptr;  ///< your own control map instead of `control`: a value per pixel, row-major, 0 or more
+    ParallelFor parallel;        ///< the result does not depend on it
     Progress progress;
 };
 
-/// A triangulation of chosen pixels. Vertices are numbered by increasing pixel; half-edge e = 3 t + k of triangle t
-/// starts at corners[e] and leads to the triangle's next corner; twins[e] is the same edge from the
-/// other side, kGhost on the border.
+/// A triangulation of chosen pixels, in half-edges. Vertices are numbered in the order of their pixels. Half-edge
+/// e = 3 t + k, with k = 0, 1, 2, belongs to triangle t; it starts at vertex corners[e] and leads to the triangle's next
+/// corner. twins[e] is the half-edge along the same edge in the neighbouring triangle, or kGhost on the border.
 struct InitialMesh {
-    int width = 0, height = 0;  ///< of the mesh's grid, 2 or more
-    std::vector<Index> pixels;  ///< row-major pixel of each vertex, increasing; the four corners are always there
+    int width = 0, height = 0;  ///< size of the mesh's grid in pixels, each 2 or more
+    std::vector<Index>
+        pixels;  ///< pixel (row-major) of each vertex, increasing; the four corners are always among them
     std::vector<Index> corners, twins;
 
     Index vertices() const { return Index(pixels.size()); }
     std::size_t triangles() const { return corners.size() / 3; }
-    /// Position of a vertex in pixels.
+    /// The position of a vertex, in pixels and not in lattice units.
     Point pixel(Index v) const
     {
         return { std::int32_t(pixels[v] % Index(width)), std::int32_t(pixels[v] / Index(width)) };
     }
 };
 
-/// Control map of a guide: the root of what `control` names, per pixel. Only ratios matter. The root because an error
-/// of interpolation grows with the first power of a difference: docs/adaptive.md compares the exponents.
+/// The control map of a guide: for each pixel, row-major, the square root of what `control` names. Only ratios of its
+/// values matter. The root is taken because the error of an interpolation grows with the first power of a difference;
+/// docs/adaptive.md compares the exponents.
 std::vector<float> control_map(const Guide& guide, Control control, const ParallelFor& parallel = {});
 
-/// Turns a control map into the probability 0..1 of each pixel to be kept: a small even share, and proportional to the
-/// map where that stays below 1, so scaled that their mean is `density`. Values that are no number, or negative, count
-/// as 0.
+/// Replaces a control map by the probability, 0..1, that each pixel becomes a vertex. This is a small share that is the
+/// same everywhere (a tenth of `density`) plus a share proportional to the map, cut at 1, and scaled so that the mean of
+/// all is `density`. Values that are negative or not a number count as 0.
 void to_density(std::vector<float>& map, double density, const ParallelFor& parallel = {});
 
-/// Serpentine error diffusion (Floyd and Steinberg) of such probabilities. Corners are always chosen, and pixels of the
-/// sides with the root of their probability, which makes neighbours on a side as close as those around it. Returns
-/// pixels, increasing.
+/// Chooses pixels by such probabilities (row-major, width x height), with Floyd and Steinberg's error diffusion, whose
+/// direction changes from row to row. The four corners are always chosen. Pixels on the picture's sides are chosen with
+/// the square root of their probability, so that vertices along a side are as close to each other as those inside.
+/// Returns the pixels, increasing.
 std::vector<Index> halftone(const std::vector<float>& probability, int width, int height);
 
-/// Delaunay triangulation of chosen pixels of the guide (increasing, with the four corners), exact for any choice.
-/// Where four or more lie on one circle, the diagonal across which the guide jumps less is taken. Edges are flipped
-/// away from vertices of more than kMaxDegree neighbours; where that is impossible the pixels around such a vertex are
-/// added.
+/// The Delaunay triangulation of chosen pixels of the guide: increasing, the four corners among them. It is computed in
+/// exact arithmetic. Where four or more pixels lie on one circle, the diagonal along which the guide changes less is
+/// taken. Vertices with more than kMaxDegree neighbours lose some by edge flips; where no flip is possible, further
+/// pixels near such a vertex become vertices.
 InitialMesh triangulate(std::vector<Index> pixels, const Guide& guide);
 
-/// All of it, for a guide of at least 2 x 2 pixels. Fails on sizes and densities out of range, or when `progress`
-/// asked to stop.
+/// Does all of the above: chooses the pixels of a guide and triangulates them. Fails when the guide is smaller than
+/// 2 x 2 pixels or has no channels, when the density is out of range, when more than 7e8 pixels would be chosen, and when
+/// `progress` asked to stop.
 Status sample(const Guide& guide, const SamplingOptions& options, InitialMesh& mesh);
 
 }  // namespace pimg

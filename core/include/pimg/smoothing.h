@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Feature-preserving smoothing by strength: what is small in contrast for its size goes, edges and thin lines stay.
+// Smoothing that preserves features, controlled by one strength: what has little contrast for its size is removed, and
+// edges and thin lines stay.
 //
 //     picture ──▶ piece means ──sweep──▶ feature picture ──┐ says where the edges are
 //        └─────────────────────────────────┴── mixed ──────┴─diffuse─▶ ─diffuse by itself─▶ result
 //
-// The hierarchy sees features at every size but leaves the shape of its pieces; diffusion over the finest mesh leaves
-// no shape but reaches only a few pixels. Each makes up for the other. Why each part is as it is, and what was tried
-// instead: docs/smoothing.md.
+// The hierarchy sees features of every size, but the shapes of its pieces would show in the result. Diffusion over the
+// pixels' grid leaves no such shapes, but reaches only a few pixels far. Each makes up for the other's weakness.
+// docs/smoothing.md says why each part is as it is, and what else was tried.
 #pragma once
 
 #include <cstddef>
@@ -18,42 +19,49 @@
 
 namespace pimg {
 
-/// What smoothing needs to know of a picture. Computed once; every strength is then one sweep and one diffusion.
+/// What smoothing needs to know of a picture. It is computed once; each strength then takes one sweep and a few steps of
+/// diffusion.
 struct SmoothingSource {
-    Channels samples;                 ///< one to four channels, a finite value per mesh pixel
+    Channels samples;                 ///< one to four channels, each with a finite value per mesh pixel, row-major
     std::vector<PieceMeans> means;    ///< of each channel
-    std::vector<SplitPair> evidence;  ///< squared sizes, in pixels, of the pieces of t and u of each split
+    std::vector<SplitPair> evidence;  ///< squares of the sizes in pixels of the pieces of t and u, for each split
 
+    /// Bytes held.
     std::size_t memory() const;
 };
 
-/// All channels are smoothed by one decision.
+/// Makes a SmoothingSource of one to four channels with a finite value per mesh pixel. The channels are smoothed
+/// together: what stays in one of them stays in all.
 SmoothingSource analyse_for_smoothing(const Hierarchy& hierarchy, Channels samples);
 
 struct SmoothingOptions {
-    float strength = 0.03f;  ///< 0 or more, in units of the samples
+    float strength = 0.03f;  ///< in units of the samples, 0 or more; 0 changes nothing
     ParallelFor parallel;    ///< the result does not depend on it
 };
 
-/// Smooths away what deviates from its surroundings by up to about `strength`, as the root mean square over the
-/// channels. Small things need more contrast to stay, large ones less: features are told from texture by volume,
-/// contrast times pixels, which is what the hierarchy was built by. 0 returns the samples.
+/// Removes what deviates from its surroundings by up to about `strength`, where deviations are root mean squares over the
+/// channels. Small things need more contrast to stay, and large ones less: features are told from texture by their
+/// volume, that is contrast times pixels, which is also the measure that the hierarchy was built by. A strength of 0 or
+/// less returns the samples unchanged. `result` has the shape of source.samples.
 void smooth(const Hierarchy& hierarchy, const SmoothingSource& source, const SmoothingOptions& options,
             Channels& result);
 
-/// The first half of smooth(): coarse to fine, each vertex takes from its piece's mean what the vertices made so far do
-/// not predict and is not shrunk away. So what the coarser levels lost is found again where the finer ones show it, and
-/// no deviation above the tolerance is ever lost. One value per mesh pixel.
+/// The first half of smooth(). From coarse to fine, each vertex gets the value that the coarser vertices predict, plus a
+/// share of how much the mean of its piece deviates from this. The share is near 1 if that deviation times the size of
+/// the piece is well above 8 pixels times `strength`, 1/2 if it is equal to it, and near 0 below. The prediction is made
+/// from values that were reduced in this way, so a feature that coarser levels lost comes back at the first finer level
+/// that shows it clearly. `features` receives one value per mesh pixel and channel.
 void feature_sweep(const Hierarchy& hierarchy, const SmoothingSource& source, float strength, Channels& features);
 
-/// samples + (gain - 1) (samples - smooth()), with less of it on edges: where the smoothed picture has a gradient g, in
-/// strength per pixel, the share 1 / (1 + 4 g^2)^2. That keeps halos under a hundredth of a step, and soft
-/// edges from reversing.
+/// Amplifies what smooth() removes: samples + (gain - 1) (samples - smoothed), less on edges. Where the smoothed picture
+/// has the gradient g, in multiples of the strength per pixel, only the share 1 / (1 + 4 g^2)^2 of this is added. This
+/// keeps halos at an edge below 1 % of its height, and soft edges from reversing.
 void enhance(const Hierarchy& hierarchy, const SmoothingSource& source, const SmoothingOptions& options, float gain,
              Channels& result);
 
-/// Standard deviation of the noise of a picture, as if white: from the median absolute mixed second difference.
-/// A multiple of it is a natural strength. 0 for pictures under 2 x 2 pixels.
+/// Estimates the standard deviation of a picture's noise, in units of its samples, as the root mean square over the
+/// channels. It assumes white noise, and takes the median of the absolute mixed second differences. A small multiple of
+/// it is a good strength for smooth(). Returns 0 for pictures of fewer than 2 x 2 pixels.
 float noise_level(const Channels& samples, int width, int height);
 
 }  // namespace pimg

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The few words every other header uses: indices, lattice points, status, parallel loops.
+// The few types every other header uses: indices, lattice points, status, parallel loops, progress.
 #pragma once
 
 #include <cstddef>
@@ -11,34 +11,34 @@
 
 namespace pimg {
 
-/// Number of a vertex, split or pixel. 32 bits: pictures of up to 2^31 pixels.
+/// The number of a vertex, a split or a pixel. Pictures have at most 2^31 pixels, so 32 bits are enough.
 using Index = std::uint32_t;
 
-/// The ghost vertex that closes the fan of every border vertex: it stands for
-/// everything outside the picture and has neither position nor intensity.
+/// The ghost vertex. It stands for everything outside the picture, and is a neighbour of every border vertex. It has
+/// neither a position nor an intensity.
 constexpr Index kGhost = 0xffffffffu;
 
-/// Lattice units per pixel. Vertices sit on this lattice while the mesh is
-/// being simplified, not only when it is stored, so that orientation tests are
-/// exact and a file holds the very mesh the engine used.
+/// Lattice units per pixel: all vertices lie on a lattice of 1/64 pixel, already while the mesh is being simplified. So
+/// tests of orientation are exact, and a file stores exactly the mesh that the engine used.
 constexpr std::int32_t kSubpixels = 64;
 
-/// Position in lattice units; the centre of pixel (x, y) is (64 x, 64 y), y down.
+/// A position in lattice units. The centre of pixel (x, y) is at (64 x, 64 y), and y points down.
 struct Point {
     std::int32_t x = 0, y = 0;
     friend bool operator==(Point a, Point b) { return a.x == b.x && a.y == b.y; }
     friend bool operator!=(Point a, Point b) { return !(a == b); }
 };
 
-/// Twice the area of triangle (a, b, c) in lattice units, exact; positive for
-/// the orientation every triangle of a valid mesh has.
+/// Twice the signed area of triangle (a, b, c) in square lattice units, exact for positions inside a picture. It is
+/// above 0 for every triangle of a valid mesh: on the screen, where y points down, such a triangle runs clockwise.
 inline std::int64_t doubled_area(Point a, Point b, Point c)
 {
     return std::int64_t(b.x - a.x) * (c.y - a.y) - std::int64_t(c.x - a.x) * (b.y - a.y);
 }
 
-/// Outcome of an operation that can fail: empty = fine, otherwise one line that
-/// names what was wrong and what was expected. Core neither throws nor prints.
+/// The outcome of an operation that can fail: success, or an error of one line that says what was wrong and, where it
+/// helps, what was expected. The engine prints nothing, and throws nothing of its own; only std::bad_alloc may come from
+/// it when memory runs out, and exceptions of functions that the caller passes in.
 class Status {
 public:
     Status() = default;
@@ -56,16 +56,15 @@ private:
     std::string m_error;
 };
 
-/// Runs body(i) for every i in [0, n), in any order, possibly at once, and
-/// returns when all are done. Results never depend on which implementation is
-/// given; an empty function means a plain loop. Core owns no threads: hosts
-/// pass their pool. Bodies given to it never throw: when a piece of work throws,
-/// no other is begun, and once those at work have ended the first exception is
-/// thrown again on the thread that started the loop.
+/// A loop that the caller implements with his own threads, since the engine has none. It must call body(i) once for
+/// every i in [0, n), in any order and possibly several at the same time, and return when all calls are done. An empty
+/// function stands for a plain loop. Results do not depend on the implementation. It needs no care about exceptions: no
+/// body that is passed to it throws. The engine catches them inside the body, begins no further work, and throws the
+/// first one again when the loop has returned, on the thread that started it.
 using ParallelFor = std::function<void(std::size_t n, const std::function<void(std::size_t)>& body)>;
 
-/// Called now and then with the share of the work done, 0..1; returning false
-/// asks for a clean stop. Always called from the thread that started the work.
+/// Called now and then with the share of the work that is done, 0..1. When it returns false, the work stops, and the
+/// function that does it fails. It is always called on the thread that started the work.
 using Progress = std::function<bool(float done)>;
 
 }  // namespace pimg

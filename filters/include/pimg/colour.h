@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the samples of a picture mean: which channels are colour, their luminance, how they are decoded
-// to linear light, and the logarithm. OpenColorIO is used here and nowhere else.
+// What the samples of a picture mean: which channels are colour, how they are decoded to linear light, and what their
+// luminance is.
 #pragma once
 
 #include <array>
@@ -13,57 +13,65 @@
 
 namespace pimg {
 
-/// log2 of `count` positive numbers in place, by a processor of OpenColorIO that is built once. Numbers below 2^-126
-/// count as 2^-126.
+/// Replaces `count` numbers by their base-2 logarithms. Numbers below 2^-126, zero and negative ones among them, count as
+/// 2^-126.
 void log2_in_place(float* values, std::size_t count);
-/// Its inverse, on vectors: several times as fast as a processor. Exponents are clamped to -126..127.
+/// Replaces `count` numbers x by 2^x. Numbers outside -126..127 count as the nearer end of this range.
 void exp2_in_place(float* values, std::size_t count);
 
-/// The colour space that a rule of the configuration $OCIO names gives files of that name; empty if only the default
-/// rule would apply, which says nothing of the file, or there is no configuration.
+/// The colour space that the file rules of the OpenColorIO configuration in $OCIO give a file of that name. Empty if there
+/// is no configuration, and if only its default rule applies, which says nothing about the file.
 std::string space_by_file_rule(const std::string& filename);
 
-/// False, with a line saying why, if $OCIO names a configuration that cannot be read.
+/// Whether $OCIO is unset or names a configuration that can be read. If not, `error` says why in one line.
 bool check_colour_config(std::string& error);
 
-/// The colour of one picture. Immutable; may be shared between threads.
+/// How the colour of one picture is understood. It does not change once resolved, and may be shared between threads.
 class Colour {
 public:
-    /// Finds out from, in this order:
+    /// Finds out the colour space of a picture. The first of these that says something decides:
     ///   1. `space`, the option incolorspace;
-    ///   2. oiio:ColorSpace, or colorInteropID, if it says more than "Linear" and is known;
-    ///   3. "Linear" or the type: floating-point samples are linear, whole numbers are sRGB unless called linear;
-    ///   4. for linear samples the attribute chromaticities, else they are scene-linear.
-    /// Names are looked up in the configuration of $OCIO when that is set, then among the engine's own: linear, srgb,
-    /// rec709, gammaX.Y, acescg, aces2065-1, and CURVE_PRIMARIES as in lin_rec2020, g22_adobergb or srgb_p3d65_scene.
-    /// Scene-linear is the role of that name in the configuration of $OCIO, and Rec. 709 without one. Pictures that are
-    /// encoded are decoded into it. The primaries of a space of a configuration are found by converting red, green and
-    /// blue to a space whose primaries are known: the role aces_interchange, else a scene-referred role
-    /// cie_xyz_d65_interchange or space XYZ; else they are known from the space's name; else they count as Rec. 709 and
-    /// luminance has the configuration's luma coefficients. Floats of a PFM are linear, whatever OpenImageIO calls them.
-    /// Fails when `space` is unknown or $OCIO cannot be read.
+    ///   2. the metadata oiio:ColorSpace or colorInteropID, if it names a known space other than just "Linear";
+    ///   3. the type of the samples: floating-point samples are linear, and whole numbers are sRGB unless the metadata
+    ///      call them "Linear". Samples of a PFM file are linear, whatever OpenImageIO calls them.
+    /// The primaries of linear samples that no name tells are those of the attribute chromaticities; without it, the
+    /// samples are scene-linear.
+    ///
+    /// Names are looked up in the OpenColorIO configuration of $OCIO, if that is set, and then among pimg's own: linear,
+    /// srgb, rec709, gammaX.Y, acescg, aces2065-1, and CURVE_PRIMARIES as in lin_rec2020, g22_adobergb or
+    /// srgb_p3d65_scene. Scene-linear is the role scene_linear of that configuration, and linear Rec. 709 without one.
+    /// Encoded pictures are decoded to it.
+    ///
+    /// The primaries of a space of a configuration are found by converting red, green and blue to a space with known
+    /// primaries: the role aces_interchange, else a scene-referred role cie_xyz_d65_interchange or space XYZ. Without
+    /// these they are taken from the space's name. If that does not tell them either, they count as those of Rec. 709,
+    /// and luminance has the configuration's luma coefficients.
+    ///
+    /// Fails, with one line in `error`, when `space` is unknown or $OCIO names a configuration that cannot be read.
     static bool resolve(const OIIO::ImageSpec& spec, const std::string& space, Colour& colour, std::string& error);
 
-    /// Colour channels: R, G and B if the picture has channels so named, else the first three that are neither alpha
-    /// nor depth. Everything else is never filtered.
+    /// The number of colour channels, 1 to 3, and the channel of the picture that is colour channel `i`. Colour channels
+    /// are those named R, G and B (or red, green and blue) if all three are there, else the first three that are neither
+    /// alpha nor depth. In a picture of nothing but alpha and depth, these count as colour. No others are filtered.
     int count() const { return m_count; }
     int channel(int i) const { return m_channels[std::size_t(i)]; }
     bool is_colour(int channel) const;
 
-    /// Whether samples must be decoded to become linear light.
+    /// Whether samples are encoded, that is must be decoded to become linear light.
     bool encoded() const { return m_decoder != nullptr; }
-    /// Decodes `count` RGB triples in place; nothing to do for linear samples.
+    /// Decodes `count` RGB triples in place. Linear samples stay as they are.
     void decode(float* rgb, std::size_t count) const;
 
-    /// Converts `count` triples of decoded samples to linear Rec. 709, the primaries of the results made for displays, and
-    /// back. Nothing to do for pictures that have them. Whites become equal RGB.
+    /// Converts `count` RGB triples of decoded samples in place to linear Rec. 709, the primaries of results made for
+    /// displays, and back. Pictures that have these primaries stay as they are. White becomes equal R, G and B, whatever
+    /// the white point of the picture.
     void to_rec709(float* rgb, std::size_t count) const;
     void from_rec709(float* rgb, std::size_t count) const;
     bool has_rec709_primaries() const { return !m_converts; }
 
-    /// Relative luminance of linear RGB: Y of its colour in Rec. 709, whatever its primaries, so that it does not depend on
-    /// what a scene is stored in. Never below 3 % of the largest channel, so
-    /// that colours outside the gamut, whose Y may vanish or be negative, keep a finite ratio to it.
+    /// The relative luminance of a linear RGB triple: Y of the same colour in Rec. 709, so that it does not depend on the
+    /// primaries a scene is stored with. It is never below 3 % of the largest channel: colours outside the gamut may have
+    /// a Y of 0 or less, and the ratio of a channel to the luminance must stay finite.
     float luminance(const float* rgb) const
     {
         const float y = m_weights[0] * rgb[0] + m_weights[1] * rgb[1] + m_weights[2] * rgb[2];
@@ -71,18 +79,20 @@ public:
         const float floor = 0.03f * (most > rgb[2] ? most : rgb[2]);
         return y < floor ? floor : y;
     }
+    /// The weights of R, G and B in the luminance.
     const std::array<float, 3>& weights() const { return m_weights; }
 
-    /// What the samples are taken as and why, in a few words for people.
+    /// What the samples are taken to be, and why: a few words for people to read.
     const std::string& description() const { return m_description; }
 
-    /// Makes metadata say which space decoded samples are in: oiio:ColorSpace and, where that is not enough, chromaticities.
+    /// Sets the metadata of a picture of decoded samples: oiio:ColorSpace and, where that does not tell the primaries,
+    /// chromaticities.
     void declare_linear(OIIO::ImageSpec& spec) const;
 
-    /// Name that the configuration of $OCIO, or without one OpenImageIO, has for the space of the samples as stored; empty if
-    /// it has none.
+    /// The name of the space of the samples as stored: in the configuration of $OCIO or, without one, in OpenImageIO.
+    /// Empty if it has none there.
     const std::string& config_name() const { return m_config_name; }
-    /// Converts `count` RGB triples as stored to the scene-linear space that Colour::resolve() speaks of.
+    /// Converts `count` RGB triples, as stored, in place to scene-linear; see resolve(). Returns whether that is possible.
     bool to_scene_linear(float* rgb, std::size_t count) const;
 
     struct Decoder;

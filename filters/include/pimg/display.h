@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From linear light to what displays and 8-bit files hold.
+// Encodes linear light for displays and 8-bit files.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +9,15 @@
 
 namespace pimg {
 
-/// A linear picture for displays, as float: its colours converted to Rec. 709 from the primaries its metadata say, see
-/// Colour::resolve(), and encoded sRGB. Alpha and other channels stay as they are. On failure the result has an error.
+/// Encodes a linear picture in sRGB. Its colours are first converted to Rec. 709 from the primaries that its metadata name
+/// (Colour::resolve()). The result is float; alpha and other channels are copied. nthreads: 0 = OpenImageIO's "threads"
+/// attribute. On failure the result has an error.
 OIIO::ImageBuf srgb_encoded(const OIIO::ImageBuf& src, int nthreads = 0);
 
-/// Applies the sRGB curve to `count` numbers in place. Below 0 it is a straight line; above 1 the curve goes on.
+/// Applies the sRGB curve to `count` numbers in place. Below 0 the curve is a straight line, and above 1 it continues.
 void srgb_in_place(float* values, std::size_t count);
 
-/// Makes metadata say which space the pixels are in now, "" for none that has a name.
+/// Sets the metadata that name the colour space of the pixels. "" stands for a space without a name.
 void declare_space(OIIO::ImageSpec& spec, const std::string& space);
 
 }  // namespace pimg

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The four forms every filter of imagebufalgo.h has, made from the one that works: on a hierarchy, into `dst`.
+// Makes the four forms in which every filter of imagebufalgo.h can be called from one function: the form that takes a
+// ProgressiveImage and writes into `dst`.
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
@@ -9,14 +10,14 @@
 namespace pimg {
 namespace ImageBufAlgo {
 
-/// Builds the hierarchy of a plain picture with default options. False, with an error in `dst`, if it cannot be.
+/// Builds the hierarchy of a plain picture with default options. On failure returns false and sets the error of `dst`.
 bool build_source(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, int nthreads, ProgressiveImage& progressive);
 
-/// The message of a filter that failed without one.
+/// Sets the error of `result` when the filter `name` failed without setting one.
 void set_failed(OIIO::ImageBuf& result, const char* name);
 
-/// A filter to be called in any of four forms. It is an object rather than four functions, so that the forms are written
-/// once; it converts to a pointer to the function that works, for tables.
+/// A filter that can be called in four forms, which are listed in imagebufalgo.h. It is an object and not four functions,
+/// so that the forms are written only once. It converts to a pointer to its function, for tables of filters.
 template<class Options>
 class FilterForms {
 public:

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The registry: every filter of imagebufalgo.h, by name, with its options as text. pimgtool, its manual and completion,
-// the plugin, Python, C and GEGL all offer what is listed here, so that a new filter is one row in filter_table.cpp. A
-// host finds here what it shows of a filter: ranges, units, defaults, choices and help (OptionInfo in options.h).
+// The registry of filters: every filter of imagebufalgo.h, by name, with its options as text. pimgtool with its manual and
+// completion, the plugin, Python, C and GEGL all offer what is listed here; so a new filter is one row in
+// filter_table.cpp. A host finds here all it needs to show a filter: the ranges, units, defaults, choices and help texts
+// of its options (OptionInfo in options.h).
 #pragma once
 
 #include <functional>
@@ -17,20 +18,20 @@
 
 namespace pimg {
 
-/// What the pixels of a filter's result are.
+/// What kind of pixels the result of a filter has.
 enum class FilterOutput {
     picture,    ///< a picture in the range of the source's samples
     unbounded,  ///< a picture whose samples may leave that range
-    light,      ///< linear light, 1 is white; float
-    labels,     ///< one channel of whole numbers from 0, not scaled to a range (labels.h)
+    light,      ///< linear light as floats, 1 is white
+    labels,     ///< one channel of whole numbers from 0 that are not scaled to any range (labels.h)
     mask        ///< one channel, 0 or 1
 };
 
-/// A filter with its options, checked.
+/// A filter together with options that have been checked. It is called like the functions of imagebufalgo.h.
 struct BoundFilter {
     std::function<bool(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI roi, int nthreads)> run;
     FilterOutput output = FilterOutput::picture;
-    std::string written;  ///< key of an option given that makes it write a file besides; empty: none
+    std::string written;  ///< key of the option, among those given, that makes it also write a file; empty: none
 
     bool operator()(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI roi, int nthreads) const
     {
@@ -38,32 +39,34 @@ struct BoundFilter {
     }
 };
 
-/// What the value of a filter's own name means where a file is read through it, as in `a.pimg?level=200`.
+/// What a value means that is given to the name of a filter when a file is read through it, as in `a.pimg?level=200`.
 struct BareValue {
-    const char* word;   ///< "SPLITS"; "1" where it only says that the filter is wanted
-    const char* key;    ///< the option it sets; "" for none. Words such as `on` set none, and the defaults hold
-    const char* share;  ///< the option that numbers below 1 set instead; "" for the same
+    const char* word;   ///< how help texts show the value, like "SPLITS"; "1" if it only switches the filter on
+    const char* key;    ///< the option it sets; "" for none. A word such as `on` sets no option
+    const char* share;  ///< the option that a number below 1 sets instead; "" if it is the same
 };
 
-/// One row of the table.
+/// One filter.
 struct Filter {
-    const char* name;     ///< "hdr_compress"; "level" stands for level_image
-    const char* command;  ///< of pimgtool: "--hdr-compress"
-    const char* summary;  ///< one line, beginning with a small letter
+    const char* name;     ///< the function's name, like "hdr_compress"; "level" for level_image
+    const char* command;  ///< the command of pimgtool, like "--hdr-compress"
+    const char* summary;  ///< what it does, in one line that begins with a small letter
     BareValue bare;
-    FilterOutput output;  ///< with default options
-    std::vector<OptionInfo> (*options)();
-    /// Sets and checks options. False, with a one-line message, for any that is wrong.
+    FilterOutput output;                   ///< what its result is with default options
+    std::vector<OptionInfo> (*options)();  ///< all options of the filter
+    /// Sets and checks options given as text. On failure returns false with one line in `error`.
     bool (*bind)(const OptionTexts& texts, BoundFilter& filter, std::string& error);
 };
 
-/// All filters. The first is `level`, whose options alone ask a reader for it.
+/// All filters. The first is `level`: a file is also read through it when only its options are given, without its name.
 const std::vector<Filter>& filter_table();
 
-/// Null, with a one-line message that lists the names, if there is none. A dash may stand for an underscore.
+/// The filter of that name, in which dashes may stand for underscores. If there is none, returns null with one line in
+/// `error` that lists the names.
 const Filter* find_filter(std::string_view name, std::string& error);
 
-/// Options of `T` from pairs of key and value.
+/// Sets options of the struct `T` from pairs of key and value, and checks them. On failure returns false with one line in
+/// `error`.
 template<class T>
 bool set_options(T& options, const OptionTexts& texts, std::string& error)
 {

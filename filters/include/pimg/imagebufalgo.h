@@ -1,31 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Filters on progressive images, in the manner of OpenImageIO's ImageBufAlgo. The rules here hold for all functions. The
-// comment of a function says what it adds to them and where it differs.
+// Filters on progressive images, in the manner of OpenImageIO's ImageBufAlgo. The rules here hold for all filters. The
+// comment of a filter says what it does, and where it differs from these rules. Sections, equations and figures are those
+// of the paper of Lee, Yoon and Lee (2008).
 //
-// Forms     Each filter can be called in four forms. The result goes to `dst` or is returned; the source is a picture,
-//           whose hierarchy is then built with default BuildOptions, or a ProgressiveImage, so that further parameters
-//           cost one sweep:
+// Forms     Each filter can be called in four forms. The result goes to `dst`, or is returned. The source is a picture,
+//           whose hierarchy is then built with default BuildOptions, or a ProgressiveImage; then the hierarchy is built
+//           once, and each further setting costs one sweep:
 //               bool     f(ImageBuf& dst, const ImageBuf& src,         const Options& = {}, ROI = {}, int nthreads = 0)
 //               bool     f(ImageBuf& dst, const ProgressiveImage& src, const Options& = {}, ROI = {}, int nthreads = 0)
 //               ImageBuf f(const ImageBuf& src,                        const Options& = {}, ROI = {}, int nthreads = 0)
 //               ImageBuf f(const ProgressiveImage& src,                const Options& = {}, ROI = {}, int nthreads = 0)
-//           Options is the struct named where the filter is declared. A filter that is given to a function pointer is
-//           the second form.
+//           Options is the struct named where the filter is declared. A filter converts to a pointer to the second
+//           form.
 // Errors    The dst form returns false and leaves a message in dst.geterror(); the other returns a picture
 //           with has_error(). Nothing is thrown. Deep images, volumes, and empty pictures are refused.
-// Source    Any pixel type, any number of channels, any data window; read as float, in memory or in an ImageCache. It
-//           may be `dst`.
-// Result    A `dst` that is not initialized becomes a copy of the source in windows, channels and metadata, and in pixel
-//           type unless stated otherwise. One that is keeps its own, and only pixels inside `roi` and both pictures
-//           change.
-// roi       Restricts what is written, pixels and channels; undefined = all of dst, or of the source. The picture is
-//           always filtered whole, so a region's pixels are those of the whole result.
+// Source    Any pixel type, any number of channels, any data window, in memory or in an ImageCache. It is read as float.
+//           It may be `dst`.
+// Result    A `dst` that is not initialized gets the windows, channels and metadata of the source, and its pixel type
+//           unless stated otherwise ("dst: float"). A `dst` that is initialized keeps its own, and only those of its
+//           pixels change that are inside `roi` and inside the source.
+// roi       Restricts the pixels and channels that are written. If undefined, all of dst is written, or all of the source
+//           if dst is not initialized. The picture is always filtered as a whole, so that the pixels of a region are the
+//           same as in the whole result.
 // nthreads  0 = OpenImageIO's "threads" attribute. Never changes a bit of the result.
-// Channels  Colour channels are filtered: R, G, B by name, else the first three that are neither alpha nor
-//           depth. The others, alpha among them, are copied.
+// Channels  Colour channels are filtered: those named R, G and B, else the first three that are neither alpha nor depth
+//           (Colour::count()). The others, alpha among them, are copied.
 // Alpha     Colour is worked on as stored, that is associated (premultiplied).
-// NaN, Inf  See ProgressiveImage. Filters put such samples back as they were, unless stated otherwise.
-// Options   Declared in options.h with range and default; out-of-range or non-finite values are errors.
+// NaN, Inf  Filters work on neighbouring values instead (ProgressiveImage), and put such samples back as they were,
+//           unless stated otherwise.
+// Options   Declared in options.h with their ranges and defaults. Values outside the range, and NaN or Inf, are errors.
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
@@ -40,7 +43,7 @@ namespace ImageBufAlgo {
 using OIIO::ImageBuf;
 using OIIO::ROI;
 
-/// What the filters below do: on a hierarchy, into `dst`. Call them by the names below.
+/// The functions that do the work of the filters below. Call the filters by their names below, in any of the four forms.
 namespace on_hierarchy {
 bool hdr_compress(ImageBuf& dst, const ProgressiveImage& src, const HdrCompressOptions& options, ROI roi, int nthreads);
 bool feature_lowpass(ImageBuf& dst, const ProgressiveImage& src, const FeatureLowpassOptions& options, ROI roi,
@@ -59,86 +62,94 @@ bool ink(ImageBuf& dst, const ProgressiveImage& src, const InkOptions& options, 
 // The forms are objects with names of functions.
 // NOLINTBEGIN(readability-identifier-naming)
 
-/// Compresses a scene's range of luminance to a display's (paper, section 5.1). In log2 luminance the base is scaled by
-/// s0, and every detail d by
+/// Compresses the range of luminance of a scene to that of a display (section 5.1). This happens in log2 luminance: the
+/// base is multiplied by s0, and every detail d by
 ///     h(d) = s0 + (1 - s0) (1 - d / dmax)^beta,      d = |detail|, at most dmax.
-/// With coherence > 0 both details of a split take h of their contrast envelope instead: coherence times the envelope
-/// of the coarser vertices around, and for the rest the contrast of the coarser faces they correct, or their own if
-/// larger. That keeps small corrections beside a strong edge in step with the edge, which Eq. (2) as printed (coherence
-/// = 0) does not: it makes halos and reverses gradients. Then exposure and white are fitted to the display, unless fit
-/// = 0.
+/// This is Eq. (2). As printed (coherence = 0), it makes halos and reverses gradients, because small corrections beside a
+/// strong edge are compressed less than the edge. With coherence > 0, both details of a split therefore take h of their
+/// contrast envelope instead of their own size. The envelope mixes two contrasts: with the weight `coherence` the envelope
+/// of the coarser vertices around, and with the rest of the weight the contrast of the coarser faces they correct, or
+/// their own if it is larger. Then exposure and white are fitted to the display, unless fit = 0.
 ///
-/// Returns display-linear RGB, 0..1, in the source's primaries (oiio:ColorSpace says which): linear light, white at 1.
-/// Hue and saturation are those of the source. 8-bit and other encoded sources are decoded first. NaN becomes what is
-/// around it, +Inf white. With fit = 0 the result is in the units of the (decoded) source, and s0 = 1 returns the
-/// source. dst: float.
+/// The result is linear light for a display, 0..1 with white at 1, in the primaries of the source, which oiio:ColorSpace
+/// names. Hue and saturation are those of the source. 8-bit and other encoded sources are decoded first. NaN becomes the
+/// mean of what is around it, and +Inf white. With fit = 0 the result is in the units of the decoded source, and s0 = 1
+/// then returns the decoded source. dst: float.
 inline constexpr FilterForms<HdrCompressOptions> hdr_compress { "hdr_compress", on_hierarchy::hdr_compress };
 
-/// Smooths texture away and keeps features. By strength (the default): what is small in contrast for its size goes,
-/// edges and thin lines stay; one decision for all channels. strength = 0: the source, bit for bit. By splits or
-/// fraction (paper, section 4.1): leaves out the details of all but the first splits, so that what is between them
-/// becomes linear. All splits kept: the source.
+/// Removes texture and keeps features, in one of two ways.
+///   strength, noise   (the default) What has little contrast for its size is removed; edges and thin lines stay. All
+///                     channels are smoothed together. strength = 0 returns the source, bit for bit.
+///   splits, fraction  (section 4.1) The details of all but the first splits are left out, so the picture becomes linear
+///                     between the vertices that are left. With all splits kept, the result is the source.
 inline constexpr FilterForms<FeatureLowpassOptions> feature_lowpass { "feature_lowpass",
                                                                       on_hierarchy::feature_lowpass };
 
-/// Multiplies details by `gain`: those of a range of splits (paper, section 4.1), by a curve over the position in the
-/// hierarchy, or, with strength, noise or log, what feature_lowpass() of that strength removes, less on edges so that
-/// they keep their shape. gain = 1: the source, bit for bit. dst: floating point; results may exceed the source's
-/// range.
+/// Amplifies details by a factor, in one of three ways.
+///   gain, from, to        (section 4.1) Multiplies the details of a range of splits by `gain`.
+///   curve                 Multiplies the details of every split by a factor that depends on its position among them.
+///   strength, noise, log  Multiplies what feature_lowpass() of that strength removes by `gain`, less on edges, so that
+///                         they keep their shape.
+/// gain = 1 returns the source, bit for bit. dst: floating point, since results may leave the range of the source.
 inline constexpr FilterForms<DetailEnhanceOptions> detail_enhance { "detail_enhance", on_hierarchy::detail_enhance };
 
-/// The mesh M_i of one level as a picture: its triangles, Gouraud-shaded. NaN and Inf only come back at the finest
-/// level.
+/// Shows the mesh M_i of one level as a picture: colours are interpolated over its triangles (Gouraud shading). NaN and
+/// Inf only come back at the finest level.
 inline constexpr FilterForms<LevelOptions> level_image { "level_image", on_hierarchy::level_image };
 
-/// The edges of the mesh M_i, black on white (1), or with overlay drawn over level_image(): black where
-/// that is brighter than its mean, else white.
+/// Draws the edges of the mesh M_i of one level in black (0) on white (1). With `overlay`, they are drawn over the result
+/// of level_image(): black where that is brighter than its mean, and white elsewhere.
 inline constexpr FilterForms<WireframeOptions> wireframe { "wireframe", on_hierarchy::wireframe };
 
-/// Partitions the picture into the dual pieces of one level (paper, section 4.2): the pixels whose vertices were merged
-/// into each vertex of M_i. A piece is a union of pieces at every finer level, where one of them keeps its number.
-///   labels      one channel of vertex numbers from 0, not scaled to any range. dst: uint32.
+/// Partitions the picture into the dual pieces of one level (section 4.2). The piece of a vertex of M_i consists of the
+/// pixels whose vertices were merged into it. A piece is a union of pieces of any finer level, and one of these has its
+/// number. The level is chosen as for level_image(); the finest has a piece for every vertex of its mesh, normally for
+/// every pixel. The option `output` says what the result holds:
+///   labels            one channel of vertex numbers from 0 that are not scaled to any range. dst: uint32.
 ///   mean, boundaries  as for segment().
-/// Levels count as in level_image(); the finest has a piece for every pixel.
 inline constexpr FilterForms<DualPiecesOptions> dual_pieces { "dual_pieces", on_hierarchy::dual_pieces };
 
-/// Partitions the picture into connected regions that look alike, by merging its pieces, most alike first (paper,
-/// section 4.2). Colours are compared in CIELAB: of linear light, with the median luminance at 0.18 if the picture is
-/// scene-linear and so has no white. The merges are kept with the ProgressiveImage: other numbers of regions cost one
-/// pass, and coarser regions are unions of finer ones. Exactly `regions` of them, 4-connected.
-/// labels      one channel of region numbers from 0, in order of their first pixel, row by row, not scaled to any
-/// range. dst: uint32.
-/// mean        every colour channel at its mean over the region, as stored; special samples count as what is around
-/// them.
-///   boundaries  one channel, 1 where the right or lower neighbour is in another region, else 0.
-/// stats=FILE writes area, centre, bounding box, and mean and deviation of every channel, for each region.
+/// Partitions the picture into regions of similar colour, by merging its pieces, the most similar first (section 4.2).
+/// There are exactly `regions` of them, and they are 4-connected. Colours are compared in CIELAB, computed from linear
+/// light. A scene-linear picture has no white, so its median luminance is taken as 0.18. The merges are kept with the
+/// ProgressiveImage: another number of regions then costs one pass, and coarser regions are unions of finer ones. The
+/// option `output` says what the result holds:
+///   labels      one channel of region numbers from 0, in the order of the regions' first pixels, row by row; they are
+///               not scaled to any range. dst: uint32.
+///   mean        every colour channel at its mean over the region, as stored. A NaN or Inf counts as the mean of what is
+///               around it.
+///   boundaries  one channel: 1 where the right or lower neighbour is in another region, and 0 elsewhere.
+/// stats=FILE also writes a table of the regions: area, centre, bounding box, and mean and standard deviation of every
+/// channel.
 inline constexpr FilterForms<SegmentOptions> segment { "segment", on_hierarchy::segment };
 
-/// Paints the picture with brush strokes (paper, section 5.2): one for every base vertex and for both vertices of every
-/// split, from coarse to fine, placed and sized by their dual pieces, bent along the edges, and left out where they
-/// would not bring the canvas closer to the picture. Paint ends at the picture's edges. NaN and Inf are painted over.
-/// opacity = 0 on the picture's own canvas: the source, bit for bit. Nothing is clipped.
+/// Paints the picture with brush strokes (section 5.2), one for every base vertex and for both vertices of every split,
+/// from coarse to fine. The dual piece of the vertex gives the place and size of a stroke. Strokes bend along the edges of
+/// the picture, and paint ends at them. A stroke that would not bring the canvas closer to the picture is left out. NaN
+/// and Inf are painted over. Nothing is clipped. opacity = 0 without a canvas returns the source, bit for bit.
 inline constexpr FilterForms<PaintOptions> paint { "paint", on_hierarchy::paint };
 
-/// Lays the dual pieces of the level with that many vertices as tiles of their mean colour, with joints and bevels.
-/// NaN and Inf become what is around them.
+/// Makes a mosaic (section 7). Its tiles are the dual pieces of the level with `tiles` vertices, in their mean colour, with
+/// joints between them and slopes at their sides. NaN and Inf become the mean of what is around them.
 inline constexpr FilterForms<MosaicOptions> mosaic { "mosaic", on_hierarchy::mosaic };
 
-/// Draws the picture with black lines (0) on white paper (1): along the edges, as dense as it is dark.
+/// Draws the picture in pen and ink (section 7): black lines (0) on white paper (1), along the edges, the closer together
+/// the darker the picture is.
 inline constexpr FilterForms<InkOptions> ink { "ink", on_hierarchy::ink };
 
 // NOLINTEND(readability-identifier-naming)
 
-/// The options with every value that hdr_compress would find from the picture written in. A sequence
-/// rendered with those of one frame does not flicker. False, with an error, for bad options.
+/// Replaces every 0 in the options that stands for "found from the picture" by the value that hdr_compress() finds. When
+/// all frames of a sequence are rendered with the options of one frame, the sequence does not flicker. For options that
+/// are out of range, returns false with one line in `error`.
 bool resolve_hdr_compress(const ProgressiveImage& src, HdrCompressOptions& options, std::string& error,
                           int nthreads = 0);
-/// The same without a hierarchy, which takes little longer than reading the picture. Of `build` only the colour space
-/// counts.
+/// The same for a plain picture. No hierarchy is built, so this takes little longer than reading the picture. Of `build`,
+/// only incolorspace is used.
 bool resolve_hdr_compress(const ImageBuf& src, HdrCompressOptions& options, std::string& error,
                           const BuildOptions& build = {}, int nthreads = 0);
 
-/// The level the options ask for. False, with an error, if they ask for several.
+/// Finds the level that the options ask for. If they ask for more than one, returns false with one line in `error`.
 bool find_level(const Hierarchy& hierarchy, const LevelOptions& options, Level& level, std::string& error);
 
 }  // namespace ImageBufAlgo

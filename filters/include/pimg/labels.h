@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures of labels: whole numbers from 0 in the first channel, not scaled between integers and floats as other pixels
-// are.
+// Pictures of labels, such as region numbers: the first channel holds whole numbers from 0. Other samples are scaled when
+// whole numbers are converted to floats and back (255 becomes 1); labels keep their value.
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
@@ -9,14 +9,15 @@
 
 namespace pimg {
 
-/// Metadata of such a picture: int, how many labels there are.
+/// The metadata of such a picture that says how many labels there are; an int.
 constexpr const char kLabelCount[] = "pimg:labels";
 
-/// Largest label that pixels of a type hold exactly, with all smaller ones.
+/// The largest label up to which a type of sample holds all labels exactly.
 double largest_label(OIIO::TypeDesc type);
 
-/// Writes the labels of `roi`, below `count`, to the first channel of `dst`, which holds its pixels in memory: rows of
-/// `stride` labels, the first for the corner of `roi`. False, with an error in `dst`, if its type cannot hold them.
+/// Writes labels to the first channel of `dst`, inside `roi`. `labels` begins with the label of the upper left pixel of
+/// `roi`; each row is `stride` labels after the one above. Labels are below `count`. `dst` must hold its pixels in memory.
+/// If its type cannot hold all labels, returns false and sets the error of `dst`.
 bool write_labels(OIIO::ImageBuf& dst, OIIO::ROI roi, const Index* labels, std::size_t stride, Index count);
 
 }  // namespace pimg

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A picture with its hierarchy: built once, filtered many times.
+// A picture with its hierarchy, which is built once and filtered many times.
 #pragma once
 
 #include <functional>
@@ -16,67 +16,72 @@
 
 namespace pimg {
 
-/// What building took.
+/// What building took, in seconds, and figures of the simplification.
 struct BuildStats {
     double read_seconds = 0.0;      ///< copying the picture as float
     double guide_seconds = 0.0;     ///< luminance and logarithm
     double sample_seconds = 0.0;    ///< the initial mesh, if adaptive
     double simplify_seconds = 0.0;  ///< the hierarchy
-    std::string guide;              ///< the one used: luma, log, rgb or lab
-    SimplifyStats engine;
+    std::string guide;              ///< the guide that was used: luma, log, rgb or lab
+    SimplifyStats engine;           ///< of the simplification
 };
 
-/// A progressive image (Lee, Yoon & Lee 2008): the source pixels, the hierarchy built from their guide, and the
-/// bands of the guide. Immutable after build() apart from caches that are safe to fill from several threads; so one
-/// object can serve many filters and windows at once. Copies share everything.
+/// A progressive image (Lee, Yoon & Lee 2008): the pixels of a picture, the hierarchy built from its guide, and the bands
+/// of the guide. After build() it does not change, except for caches that several threads may fill at the same time. So
+/// one object can serve many filters and threads. Copies share everything.
 ///
 /// The guide, which decides the mesh, is
-///   luma  the weighted sum of the colour samples as stored, 256 units to an integer format's range;
-///   rgb   those samples themselves, weighted alike; or
-///   log   log2 of the luminance of linear light, 12.75 units to a stop.
-/// The engine needs finite numbers. What becomes of samples that have none:
-///   NaN, Inf      the mean of the known samples around them, in the copy that is worked on. Filters that return
-///                 the picture's own kind of numbers put such a sample back as it was; hdr_compress, which returns
-///                 display values, keeps the mean, and white for +Inf.
-///   negative      light is not negative: a pixel without luminance has the mean log luminance of those around it.
-///   black         a stop below the 0.1 % quantile of the other pixels, but no more than 16 stops below their median.
-///   hot pixels    one of the brightest 0.1 % and 10 stops above all its neighbours: their mean.
-///   light sources limited to 8 stops above the 99.95 % quantile.
-/// The last four concern only the guide; the pixel keeps its ratio to its luminance. All limits are relative to the
-/// picture: scaling it by a power of two gives the very same mesh.
+///   luma  the weighted sum of the colour samples as stored; the range of an integer format has 256 units;
+///   rgb   these samples themselves, in the same units;
+///   log   log2 of the luminance of linear light; a stop has 12.75 units; or
+///   lab   L*, a* and b* of CIELAB.
+/// The guide needs finite, plausible numbers. These samples are changed for it:
+///   NaN, Inf       They become the mean of the known samples around them, also in the copy that filters work on. Filters
+///                  that return the picture's own kind of numbers put such a sample back as it was. hdr_compress, which
+///                  returns display values, keeps the mean, and makes +Inf white.
+///   negative       Light is not negative. A pixel of negative luminance gets the mean log luminance of those around it.
+///   black          Black gets the value a stop below the 0.1 % quantile of the other pixels, but not more than 16 stops
+///                  below their median.
+///   hot pixels     A pixel that is among the brightest 0.1 %, and 10 stops above all its neighbours, gets their mean.
+///   light sources  They are limited to 8 stops above the 99.95 % quantile.
+/// The last four concern only the guide `log`; the pixel itself keeps its ratio to its luminance. All limits are relative
+/// to the picture: if it is multiplied by a power of two, the mesh stays the same.
 ///
-/// Colour with alpha is worked on as stored, that is associated (premultiplied), like everywhere in OpenImageIO.
+/// Colour with alpha is worked on as stored, that is associated (premultiplied), as everywhere in OpenImageIO.
 class ProgressiveImage {
 public:
-    /// Gives a hierarchy that was built before and, on it, the bands of channels of one finite value per mesh pixel
-    /// each; such as Decoder::read_hierarchy().
+    /// A function that provides a hierarchy which was built before, and the bands of channels on it. The channels hold one
+    /// finite value per mesh pixel each. Decoder::read_hierarchy() (codec.h) does this for files.
     using StoredHierarchy =
         std::function<Status(const std::vector<const float*>& channels, Hierarchy&, std::vector<Bands>&)>;
 
     ProgressiveImage() = default;
 
-    /// Builds from `src` (any pixel type, data window and channels; not deep, not a volume). nthreads as everywhere in
-    /// OpenImageIO: 0 = the "threads" attribute; the result does not depend on it. On failure returns
-    /// false and error() says why.
+    /// Builds the hierarchy of `src`, which may have any pixel type, data window and channels, but must not be deep or a
+    /// volume. nthreads is as everywhere in OpenImageIO: 0 = the "threads" attribute; the result does not depend on it. On
+    /// failure, also when `progress` asked to stop, returns false, and error() says why in one line.
     bool build(const OIIO::ImageBuf& src, const BuildOptions& options = {}, int nthreads = 0, Progress progress = {});
 
-    /// The same with a stored hierarchy of this very picture: nothing is built, and options.base has no effect.
+    /// The same with a stored hierarchy of this very picture. Nothing is built, so options.base has no effect.
     bool adopt(const OIIO::ImageBuf& src, const StoredHierarchy& stored, const BuildOptions& options = {},
                int nthreads = 0);
 
+    /// Whether build() or adopt() has succeeded.
     bool initialized() const { return m_data != nullptr; }
+    /// Why the last build() or adopt() failed; empty if it did not.
     const std::string& error() const { return m_error; }
 
-    /// The following need an initialized() object.
+    // The following need an initialized() object.
+
     const Hierarchy& hierarchy() const;
     const std::vector<Bands>& guide_bands() const;  ///< of each channel of the guide
     const OIIO::ImageBuf& source() const;           ///< the picture as float, own memory, NaN and Inf replaced
-    const OIIO::ImageSpec& spec() const;            ///< as the picture given had it
-    const BuildOptions& options() const;
+    const OIIO::ImageSpec& spec() const;            ///< the spec of the picture that was given
+    const BuildOptions& options() const;            ///< those it was built with
     const BuildStats& stats() const;
     std::size_t memory() const;  ///< bytes held now, caches included
 
-    struct Data;  ///< what the filters share; see filters/src/progressive_image_data.h
+    struct Data;  ///< what the filters share; see filters/src/source/progressive_image_data.h
     const std::shared_ptr<Data>& data() const { return m_data; }
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Brushes: what one stroke leaves on the canvas, as a mask over (along, across).
+// Brushes. A brush is a mask that says how much paint a stroke leaves at each place along and across it.
 #pragma once
 
 #include <cstdint>
@@ -10,30 +10,34 @@ namespace pimg {
 
 /// Paint at one place of a stroke.
 struct Paint {
-    float alpha;   ///< share of the canvas it covers, 0..1
-    float height;  ///< thickness, 0..1; also makes the paint a little lighter or darker
+    float alpha;   ///< how much of the canvas it covers, 0..1
+    float height;  ///< thickness, 0..1; thicker paint is also a little lighter (Brush::grain)
 };
 
-/// A mask with a few variants, so that strokes are not all alike, and coarser copies of each, so that small strokes are
-/// anti-aliased. Its columns run along the stroke, its rows across. The first and last quarter
-/// are the stroke's ends, each as long as the stroke is wide; the middle is stretched.
+/// A mask. It has a few variants, so that strokes do not all look the same, and coarser copies of each, so that small
+/// strokes are anti-aliased. Its columns run along the stroke and its rows across it. The first and the last quarter of
+/// the columns are the stroke's ends, each as long as the stroke is wide. The middle is stretched to the stroke's
+/// length.
 class Brush {
 public:
-    static constexpr int kColumns = 128, kRows = 64;
+    static constexpr int kColumns = 128, kRows = 64;  ///< size of the finest mask
 
-    /// round, flat, bristle or knife; an empty brush for any other name.
+    /// One of the brushes that come with pimg: round, flat, bristle or knife. An empty brush for any other name.
     static Brush named(const std::string& name);
 
-    /// From a picture: `alpha` and `height` are row-major, width x height; either may be null (then height is flat, or
-    /// alpha is what the height says). Stretched over the whole stroke without keeping its ends.
+    /// Makes a brush from a picture of width x height pixels, each 1 or more, with one variant. `alpha` and `heights` are
+    /// row-major; values are clipped to 0..1. Without `alpha` (null), alpha is what `heights` says. Without `heights`,
+    /// the paint is 0.5 thick everywhere. The picture is stretched over the whole stroke, its ends included.
     static Brush from_picture(int width, int height, const float* alpha, const float* heights);
 
-    /// Whether there is such a brush, and what to call the choices.
+    /// Whether named() knew no such brush.
     bool empty() const { return m_levels.empty(); }
+    /// The names that named() knows.
     static const char* names() { return "round|flat|bristle|knife"; }
 
-    /// Share by which the colour follows the height: paint of height h is 1 + grain (h - 1/2) times as bright.
+    /// How far the brightness of paint follows its height: paint of height h is 1 + grain() (h - 1/2) times as bright.
     float grain() const { return m_grain; }
+    /// Whether the ends are stretched, too, as for brushes from pictures.
     bool stretched() const { return m_stretched; }
 
     /// One variant at one resolution.
@@ -41,7 +45,7 @@ public:
         int columns, rows;
         const Paint* paint;  ///< row-major
 
-        /// Bilinear; along and across in 0..1.
+        /// The paint at a place, interpolated bilinearly. `along` and `across` are 0..1.
         Paint at(float along, float across) const
         {
             const float fx = along * float(columns) - 0.5f, fy = across * float(rows) - 0.5f;
@@ -58,7 +62,8 @@ public:
         }
     };
 
-    /// The mask for a stroke `width` pixels wide; `variation` picks the variant.
+    /// The mask for a stroke of `width` pixels. `variation` may be any number and picks the variant. The brush must not be
+    /// empty.
     Mask mask(float width, std::uint32_t variation) const;
 
 private:

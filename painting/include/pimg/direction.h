@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which way a painter would move the brush: along the edges, and in flat places as the edges around them
-// suggest (paper, section 5.2: directions from the smoothed image gradient).
+// Which way a painter would move the brush: along the edges, and in flat places in the direction that the edges around
+// them suggest (paper, section 5.2: directions from the smoothed image gradient).
 #pragma once
 
 #include <vector>
@@ -10,26 +10,27 @@
 
 namespace pimg {
 
-/// A place or a direction in pixels, y down; pixel (x, y) has its centre there.
+/// A place or a direction, in pixels, y down. The centre of pixel (x, y) is at (x, y).
 struct Vec2 {
     float x = 0.0f, y = 0.0f;
 };
 
 using Planes [[deprecated("use ChannelsView")]] = ChannelsView;
 
-/// A direction without a sign at every place of a picture. Kept at half resolution as (cos 2a, sin 2a) times a
-/// certainty, because directions a and a + 180 degrees are the same and must average as such.
+/// A direction at every place of a picture. Directions have no sign: a and a + 180 degrees are the same. To be averaged
+/// correctly, they are stored as (cos 2a, sin 2a) times a certainty, at half the picture's resolution.
 class DirectionField {
 public:
-    /// From `guides`, whose unit is about a step of an 8-bit picture. Colour edges count as much
-    /// as edges of brightness: the structure tensors of all channels are added. `noise` is the
-    /// gradient, in units per pixel, below which a place is flat and takes its direction from farther away.
+    /// Finds the directions of `guides`: one or more channels of finite samples in units of about one step of an 8-bit
+    /// picture. Edges of colour count as much as edges of brightness, since the structure tensors of all channels are
+    /// added. `noise` is a gradient in units per pixel: a place with less counts as flat, and takes its direction from
+    /// farther away. The result does not depend on `parallel`.
     DirectionField(const ChannelsView& guides, const ParallelFor& parallel = {}, float noise = 4.0f);
 
-    /// Unit vector along the edges at `p`, which may lie outside the picture.
+    /// The unit vector along the edges at `p`, which may lie outside the picture.
     Vec2 at(Vec2 p) const;
 
-    /// How much of the local contrast runs one way, 0..1.
+    /// How clear the direction at `p` is: 0 if there is none, 1 if all contrast around runs one way.
     float certainty(Vec2 p) const;
 
     int width() const { return m_width; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paints planned strokes (strokes.h) on a canvas with a brush (brush.h).
+// Paints strokes that were planned before (strokes.h) on a canvas, with a brush (brush.h).
 #pragma once
 
 #include <vector>
@@ -9,34 +9,34 @@
 
 namespace pimg {
 
-/// What is painted on: channels of float, row-major, any values; nothing is clipped.
+/// What is painted on: channels of floats, width x height, row-major. They may hold any values, and nothing is clipped.
 struct Canvas {
     int width = 0, height = 0;
     std::vector<float*> channels;
-    float* relief = nullptr;  ///< thickness of the paint in pixels, or null when not wanted
+    float* relief = nullptr;  ///< receives the thickness of the paint in pixels, one float per pixel; null: not wanted
 };
 
+/// How strokes are painted.
 struct PaintSettings {
-    float opacity = 1.0f;       ///< of every stroke, 0..1
+    float opacity = 1.0f;       ///< opacity of every stroke, 0..1
     float jitter_color = 0.0f;  ///< 0..1: largest random change of a stroke's brightness, as a share of it
-    /// Edges that stop the paint, up to three channels in steps of an 8-bit picture, or null: a stroke covers a pixel
-    /// as far as the pixel is on the stroke's side of the edge, and so ends exactly where the picture's edge does,
-    /// anti-aliased as it is there.
+    /// Edges that stop the paint: up to three channels of the canvas's size, in units of one step of an 8-bit picture. A
+    /// stroke covers a pixel only as far as the pixel is on the stroke's side of an edge. So it ends where the picture's
+    /// edge does, with the same anti-aliasing. Null: edges do not stop paint.
     const ChannelsView* edges = nullptr;
-    /// What to show of the canvas's size and channels where strokes leave holes, or null to leave them: along edges
-    /// that stop the paint a few pixels may get none. Gaps between the hairs of a brush stay.
+    /// Fills holes: along edges that stop the paint, a few pixels may get none, and these show this picture, which has the
+    /// size and the channels of the canvas. Gaps between the hairs of a brush stay. Null: holes stay, too.
     const ChannelsView* ground = nullptr;
-    float crossing = 14.0f;  ///< differences below this are no edge
-    ParallelFor parallel;
+    float crossing = 14.0f;  ///< smallest difference in `edges` that is an edge
+    ParallelFor parallel;    ///< the result does not depend on it
 };
 
-/// Paints the strokes in order; colors[c][i] is of channel c and stroke i. Each pixel is a function of the strokes
-/// alone, so the canvas comes out the same for any number of threads.
+/// Paints the strokes in their order. colors[c][i] is the value of stroke i in channel c of the canvas.
 void paint_strokes(const Strokes& strokes, const std::vector<std::vector<float>>& colors, const Brush& brush,
                    const PaintSettings& settings, Canvas& canvas);
 
-/// Lights the relief of the paint from the upper left: multiplies every channel by up to about 1 +- strength/2.
-/// Even paint stays as it is.
+/// Lights the relief of the paint from the upper left. Every channel is multiplied by a number between about
+/// 1 - strength / 2 and 1 + strength / 2, for a strength of 0..1. Where paint is equally thick, nothing changes.
 void light_relief(Canvas& canvas, float strength, const ParallelFor& parallel = {});
 
 }  // namespace pimg

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes strokes as SVG or JSON text, for other programs.
+// Strokes as SVG or JSON text, for other programs.
 #pragma once
 
 #include <string>
@@ -9,17 +9,18 @@
 
 namespace pimg {
 
-/// Colours of strokes as shown: colors[c][i] is channel c (red, green, blue) of stroke i, encoded as sRGB, 0..1. Values
-/// outside are clipped. With one channel the strokes are grey, with none they are black.
+/// The colours of strokes as they are shown: colors[c][i] is channel c (red, green, blue) of stroke i, encoded in sRGB,
+/// 0..1. Values outside are clipped. With one channel the strokes are grey, and with none they are black.
 using ShownColors = std::vector<std::vector<float>>;
 
-/// A drawing: every stroke is a path in the order of painting, round at the ends, pixel (0, 0) being the unit
-/// square at the origin. `ground` is a colour such as "#ffffff", or empty for none.
+/// An SVG drawing. Every stroke is a path with round ends, in the order of painting. Pixel (0, 0) is the unit square at
+/// the origin. `opacity`, 0..1, is that of every stroke. `ground` is the colour behind them, such as "#ffffff", or empty
+/// for none.
 std::string strokes_to_svg(const Strokes& strokes, const ShownColors& colors, float opacity, const std::string& ground);
 
-/// {"width", "height", "strokes": [{"points": [[x, y], ...], "width", "color": [r, g, b], "level", "vertex"}, ...]};
-/// pixel centres are whole numbers, a stroke's ends lie half a width beyond its points; a stroke that only fills
-/// gaps has vertex -1.
+/// A JSON object: {"width", "height", "strokes": [{"points": [[x, y], ...], "width", "color": [r, g, b], "level",
+/// "vertex"}, ...]}, where the centres of pixels have whole coordinates. A stroke's ends lie half its width beyond its
+/// first and last points. A stroke that only fills gaps has the vertex -1.
 std::string strokes_to_json(const Strokes& strokes, const ShownColors& colors, float opacity);
 
 }  // namespace pimg

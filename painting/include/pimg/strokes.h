@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the brush strokes of a painting go (paper, section 5.2): one for every base vertex and for the two
-// vertices of every split, each placed and sized by its dual piece, laid from coarse to fine.
+// Where the brush strokes of a painting go (paper, section 5.2). There is one for every base vertex and for both vertices
+// of every split. Its dual piece gives its place and size. Strokes are painted from coarse to fine.
 //
 //   hierarchy --replay--> dabs --coarse first--> bend along edges --> keep what improves the picture --> strokes
 #pragma once
@@ -15,73 +15,77 @@
 
 namespace pimg {
 
-/// Dual piece of a vertex as the paper draws it: the polyline through the centres of the triangles around it. A
-/// border vertex adds itself and the middles of its two border edges. In order, pixels.
+/// The dual piece of a vertex as the paper draws it: the polygon through the centres of the triangles around it, in order,
+/// in pixels. That of a border vertex also passes through the middles of its two border edges and through itself.
 std::vector<Vec2> piece_polygon(const Mesh& mesh, Index vertex);
 
-/// What a piece offers a brush: a rectangle of the piece's area, as long as the piece is along the edges.
+/// A place for one stroke: a rectangle with the area of a piece, as long as the piece is along the edges.
 struct Dab {
     Vec2 centre;
-    float width, length;  ///< across and along the direction field, pixels
-    Index vertex;
-    Level level;  ///< splits applied when the piece was measured; 0 for base vertices
+    float width, length;  ///< in pixels, across and along the direction field
+    Index vertex;         ///< whose piece it is
+    Level level;          ///< level at which the piece was measured; 0 for base vertices
 };
 
+/// Which dabs are wanted.
 struct DabOptions {
-    float min = 3.0f, max = 32.0f;  ///< range of the width in pixels; nothing outside it is returned
-    /// Detail map, row-major, size of the picture, 0..1, or null: the range is scaled by 4^(1 - 2 m), so that
-    /// 1 asks for strokes a quarter of the size, 0 for four times, 0.5 leaves it alone.
+    float min = 3.0f, max = 32.0f;  ///< narrowest and widest dab in pixels; others are left out
+    /// A map, row-major, of the picture's size, with values m of 0..1, by which the range of widths is multiplied by
+    /// 4^(1 - 2 m): 1 asks for strokes a quarter as wide, 0 for strokes four times as wide, and 0.5 changes nothing.
+    /// Null: none.
     const float* detail = nullptr;
 
-    /// Factor on the range at `p` of a picture of the given size.
+    /// The factor that `detail` gives at place `p` of a picture of the given size; 1 without a map.
     float scale(Vec2 p, int width, int height) const;
 };
 
-/// Replays the splits and measures the pieces of the base vertices and of both vertices of every split. A piece
-/// still too large is measured again whenever a split near it changes it, until it fits: so no part of the
-/// picture is left without a dab. In order of the splits.
+/// Replays all splits, and measures the pieces of the base vertices and of both vertices of every split. A piece that is
+/// too large is measured again whenever a split next to it changes it, until it fits, so that no part of the picture is
+/// left without a dab. `dabs` are in the order of the splits. Fails only on a damaged hierarchy.
 Status collect_dabs(const Hierarchy& hierarchy, const DirectionField& field, const DabOptions& options,
                     std::vector<Dab>& dabs);
 
 /// One stroke: a brush drawn along a polyline.
 struct Stroke {
-    Index first = 0, count = 0;  ///< its points in Strokes::points; at least 2
-    float width = 0.0f;          ///< of the brush, pixels
-    Index vertex = kGhost;       ///< it stands for; kGhost for one that only covers what others left
-    Level level = 0;
-    std::uint32_t variation = 0;  ///< random bits of its own; the same place has the same in any frame
+    Index first = 0, count = 0;   ///< its points in Strokes::points: from `first` on, `count` of them, 2 or more
+    float width = 0.0f;           ///< of the brush in pixels
+    Index vertex = kGhost;        ///< the vertex it stands for; kGhost if it only fills a gap between others
+    Level level = 0;              ///< level at which its piece was measured
+    std::uint32_t variation = 0;  ///< random bits; plan_strokes() makes them of place, size and seed, except for gaps
 };
 
-/// Strokes in the order they are painted. The ends of a brush stand half a width beyond the ends of its polyline.
+/// Strokes in the order in which they are painted. A stroke reaches half its width beyond the ends of its polyline.
 struct Strokes {
-    int width = 0, height = 0;  ///< of the picture
+    int width = 0, height = 0;  ///< size of the picture in pixels
     std::vector<Stroke> strokes;
-    std::vector<Vec2> points;
+    std::vector<Vec2> points;  ///< those of all strokes
 
     const Vec2* begin(const Stroke& s) const { return points.data() + s.first; }
 };
 
+/// How strokes are planned.
 struct StrokeOptions : DabOptions {
-    float length = 1.0f;        ///< factor on the length pieces suggest, 0..10
-    float tolerance = 3.0f;     ///< least mean improvement over what is already painted, 8-bit units; 0 paints all
-    float crossing = 14.0f;     ///< colour difference no stroke runs across, 8-bit units
-    float jitter_angle = 0.0f;  ///< 0..1: largest random turn as a share of 45 degrees
-    float jitter_size = 0.0f;   ///< 0..1: largest random change of the width, as a share of it
-    std::uint32_t seed = 1;
-    ParallelFor parallel;
+    float length = 1.0f;     ///< factor on the length that pieces suggest, 0..10
+    float tolerance = 3.0f;  ///< least mean improvement of the picture by a stroke, in 8-bit steps; 0: all are painted
+    float crossing = 14.0f;  ///< colour difference that no stroke runs across, in 8-bit steps
+    float jitter_angle = 0.0f;  ///< largest random turn, as a share 0..1 of 45 degrees
+    float jitter_size = 0.0f;   ///< largest random change of the width, as a share 0..1 of it
+    std::uint32_t seed = 1;     ///< another seed gives other random changes
+    ParallelFor parallel;       ///< the result does not depend on it
 };
 
-/// Plans the strokes of a painting. `guides` are up to three channels in steps of an 8-bit picture: what
-/// they tell apart, strokes keep apart.
+/// Plans the strokes of a painting. `guides` are up to three channels in units of one step of an 8-bit picture; strokes
+/// do not run across differences in them. Fails only on a damaged hierarchy.
 Status plan_strokes(const Hierarchy& hierarchy, const ChannelsView& guides, const DirectionField& field,
                     const StrokeOptions& options, Strokes& strokes);
 
-/// Colour of every stroke on each channel of `picture`: the mean of the samples under its middle line that are
-/// like those at its centre by `guides`. colours[c][i] is of channel c, stroke i. Never leaves the samples' range.
+/// The colour of every stroke in each channel of `picture`: entry [c][i] is that of channel c and stroke i. It is the mean
+/// of those samples under the stroke's middle line whose `guides` are like those at its centre, so it lies within the
+/// range of the samples.
 std::vector<std::vector<float>> stroke_colors(const Strokes& strokes, const ChannelsView& picture,
                                               const ChannelsView& guides, const ParallelFor& parallel = {});
 
-/// Mixes the bits of a number: equal numbers give equal results. It is the library's only source of randomness.
+/// Mixes the bits of a number. Equal numbers give equal results. All randomness of the library comes from here.
 inline std::uint32_t scramble(std::uint32_t x)
 {
     x = (x ^ (x >> 16)) * 0x7feb352du;
@@ -89,7 +93,7 @@ inline std::uint32_t scramble(std::uint32_t x)
     return x ^ (x >> 16);
 }
 
-/// `bits` as a number in -1..1.
+/// Random bits as a number in -1..1.
 inline float signed_unit(std::uint32_t bits)
 {
     return float(bits >> 8) * (2.0f / 16777215.0f) - 1.0f;
