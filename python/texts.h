@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is to be said of the functions besides their options.
+// Texts of the docstrings: all but the options, which come from the option tables.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 namespace pimg {
 namespace python {
 
-/// An argument that is no option.
+/// An argument that is not an option of a filter.
 struct ArgumentText {
     const char* name;
     const char* preset;
@@ -25,7 +25,7 @@ struct FunctionText {
 };
 const FunctionText& function_text(const std::string& name);
 
-/// Added to filters that are functions of a picture.
+/// Appended to the description of filters that are functions of the module, and so take any kind of picture.
 extern const char* const kSourceText;
 
 }  // namespace python

@@ -22,7 +22,9 @@ std::vector<Option<T>> conversion_table()
     return {
         { &T::key, { "key", 0, 0, "", "", "variables of the OpenColorIO context to set, with commas between them" } },
         { &T::value, { "value", 0, 0, "", "", "their values, with commas between them" } },
-        { &T::unpremult, { "unpremult", 0, 0, "", "", "convert colours divided by alpha, and multiply them again" } },
+        { &T::unpremult,
+          { "unpremult", 0, 0, "", "",
+            "divide colours by alpha before the conversion, and multiply them again after it" } },
     };
 }
 
@@ -42,10 +44,9 @@ const std::vector<Option<pimgtool::DisplayOptions>>& option_table<pimgtool::Disp
     using T = pimgtool::DisplayOptions;
     static const std::vector<Option<T>> table = [] {
         std::vector<Option<T>> all = conversion_table<T>();
-        all.insert(
-            all.begin(),
-            { { &T::from, { "from", 0, 0, "", "", "space to convert from; empty: the one the picture says it is in" } },
-              { &T::looks, { "looks", 0, 0, "", "", "looks to apply instead of the view's own" } } });
+        all.insert(all.begin(),
+                   { { &T::from, { "from", 0, 0, "", "", "colour space to convert from; empty: the picture's own" } },
+                     { &T::looks, { "looks", 0, 0, "", "", "looks to apply instead of the view's own" } } });
         return all;
     }();
     return table;
@@ -227,16 +228,18 @@ CommandGroup colour_group()
     namespace iba = OIIO::ImageBufAlgo;
     return { "Channels and colour",
              {
-                 worded("--ch", "NAMES", "keeps the channels named, in that order: R,G,B", channels),
+                 worded("--ch", "NAMES", "keeps only the named channels, in this order: R,G,B", channels),
                  worded("--unpremult", "", "divides colours by alpha", alpha_operation<iba::unpremult>),
                  worded("--premult", "", "multiplies colours by alpha", alpha_operation<iba::premult>),
-                 worded("--incolorspace", "SPACE", "says which colour space the top picture is in", incolorspace),
+                 worded("--incolorspace", "SPACE", "sets the colour space that the top picture is taken to be in",
+                        incolorspace),
                  worded("--colorconvert", "FROM TO", "converts between colour spaces", colorconvert,
                         check_colorconvert),
-                 worded("--tocolorspace", "SPACE", "converts from the space the picture says it is in", tocolorspace,
+                 worded("--tocolorspace", "SPACE", "converts from the picture's own colour space", tocolorspace,
                         check_tocolorspace),
-                 worded("--ociodisplay", "DISPLAY VIEW", "OpenColorIO's display transform; \"default\" for either",
-                        ociodisplay, check_ociodisplay),
+                 worded("--ociodisplay", "DISPLAY VIEW",
+                        "applies OpenColorIO's display transform; either name may be \"default\"", ociodisplay,
+                        check_ociodisplay),
                  general_setting("--ocio", "CONFIG", "OpenColorIO configuration to use instead of $OCIO",
                                  colour_config_file),
                  general_setting("--colorconfig", "CONFIG", "the same, as oiiotool spells it", colour_config_file),

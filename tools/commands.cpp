@@ -111,7 +111,7 @@ CommandGroup filters_group()
 {
     CommandGroup group { "Filters on the progressive image of the top picture", {} };
     group.commands.push_back(operation<pimg::BuildOptions>(
-        "--build", "builds the progressive image now, as the filters that follow are to use it", build));
+        "--build", "builds the progressive image with these options, for the filters that follow", build));
     for (const pimg::Filter& row : pimg::filter_table())
         group.commands.push_back(std::string_view(row.name) == "hdr_compress" ? hdr_compress_row(row) : filter(row));
     return group;
@@ -134,13 +134,13 @@ CommandGroup general_group()
 {
     return { "General",
              {
-                 setting("--threads", "N", "threads to use; 0, the default: one per core. Results do not depend on it",
-                         threads),
-                 setting("--stats", "", "prints sizes, seconds per stage and peak memory when all is done", stats,
+                 setting("--threads", "N",
+                         "number of threads; 0, the default: one per core. Results do not depend on it", threads),
+                 setting("--stats", "", "prints sizes, seconds per stage and peak memory at the end", stats,
                          pimg::describe_options<StatsOptions>),
-                 setting("-v", "", "says what is done, and how long it took, on standard error", verbose),
-                 setting("--help", "", "lists all commands, or explains the one named after it", answered_already,
-                         pimg::describe_options<HelpOptions>),
+                 setting("-v", "", "reports each step, and how long it took, on standard error", verbose),
+                 setting("--help", "", "lists all commands, or explains the one that is named after it",
+                         answered_already, pimg::describe_options<HelpOptions>),
                  setting("--version", "", "prints the versions of pimgtool and OpenImageIO", answered_already),
              } };
 }

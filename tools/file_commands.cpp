@@ -157,12 +157,13 @@ CommandGroup sequence_group()
     return {
         "Sequences",
         {
-            general_setting(
-                "--frames", "RANGE",
-                "all of this for every frame: 1-240, 1-240x2, 1,5-7; in names, # is its number as %04d, @ as %d",
-                frames),
+            general_setting("--frames", "RANGE",
+                            "runs the command line for every frame: 1-240, 1-240x2, 1,5-7; in names, # is its number "
+                            "as %04d, @ as %d",
+                            frames),
             general_setting("--views", "NAMES",
-                            "and for every view: left,right; in names, %V is the view and %v its first letter", views),
+                            "runs it for every view, too: left,right; in names, %V is the view and %v its first letter",
+                            views),
             general_setting("--parallel-frames", "", "works on several frames at a time, each with one thread",
                             parallel_frames),
             general_setting("--shot-stats", "FILE",
@@ -177,14 +178,15 @@ CommandGroup output_group()
     return {
         "Output",
         {
-            { "-o", "FILE", "writes the top picture, which stays on the stack; keys are for .pimg files", 1, 0,
+            { "-o", "FILE", "writes the top picture, which stays on the stack; the keys are for .pimg files", 1, 0,
               output_keys, output_file },
             setting("--info", "FILE", "prints what is in a .pimg file: windows, channels, sizes of its parts", info),
             setting("-d", "TYPE",
-                    "pixel type of the files that follow: uint8, uint16, half, float ...; else the input's",
+                    "pixel type of the files written after it: uint8, uint16, half, float ...; else the input's",
                     pixel_type),
             setting("--raw", "",
-                    "writes the numbers as they are; else linear light is encoded sRGB in files of whole numbers", raw),
+                    "writes samples unchanged; otherwise linear light is encoded as sRGB in files of whole numbers",
+                    raw),
         }
     };
 }

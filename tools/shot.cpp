@@ -22,9 +22,11 @@ const std::vector<Option<pimgtool::ShotOptions>>& option_table<pimgtool::ShotOpt
     using T = pimgtool::ShotOptions;
     static const std::vector<Option<T>> table = {
         { &T::mode,
-          { "mode", 0, 0, "", "smooth|lock", "smooth follows slow changes; lock: one exposure for the shot" } },
-        { &T::radius, { "radius", 0.1, 10000, "frames", "", "how far smooth looks around" } },
-        { &T::update, { "update", 0, 0, "", "", "measure though FILE is there, and write it anew" } },
+          { "mode", 0, 0, "", "smooth|lock",
+            "smooth: exposure follows slow changes; lock: one exposure for the whole shot" } },
+        { &T::radius,
+          { "radius", 0.1, 10000, "frames", "", "how many frames before and after a frame mode=smooth looks at" } },
+        { &T::update, { "update", 0, 0, "", "", "measure again even if FILE exists, and overwrite it" } },
         { &T::render, { "render", 0, 0, "", "", "0: only measure, write no pictures" } },
     };
     return table;

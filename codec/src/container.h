@@ -32,7 +32,7 @@ void put_chunk(Bytes& file, const char* type, std::uint16_t flags, const Bytes& 
 /// False when these 16 bytes cannot start a chunk.
 bool parse_chunk_head(const std::uint8_t* bytes, ChunkHead& head);
 
-/// What the HEAD chunk holds beside the windows, which go to the description.
+/// The contents of the HEAD chunk, except the windows, which are in the description.
 struct FileHead {
     std::uint16_t major = kMajorVersion, minor = kMinorVersion;
     std::uint8_t profile = 0, transform = 0;
@@ -50,7 +50,7 @@ Status read_head(ByteReader in, const DecodeLimits& limits, FileHead& head, Pict
 Status read_channels(ByteReader in, const DecodeLimits& limits, const FileHead& head, PictureDesc& desc);
 Status read_attributes(ByteReader in, const DecodeLimits& limits, PictureDesc& desc);
 
-/// What both sides demand of a description.
+/// Checks a description, for the writer and for the reader.
 Status check_desc(const PictureDesc& desc, const DecodeLimits& limits);
 
 }  // namespace pimg

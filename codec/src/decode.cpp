@@ -58,7 +58,7 @@ std::vector<StridedChannel> shifted(const std::vector<StridedChannel>& planes, s
     return moved;
 }
 
-const char* const kPlaneCount = "pimg: one plane per channel is needed";
+const char* const kPlaneCount = "pimg: expected one entry of samples per channel";
 
 }  // namespace
 
@@ -178,7 +178,7 @@ Status Decoder::read_preview(std::uint32_t width, std::uint32_t height, const st
     return guarded([&]() -> Status {
         const File& f = *m_file;
         if (samples.size() != f.desc.channels.size() || width < 1 || height < 1)
-            return Status::failure(kPlaneCount);
+            return Status::failure("pimg: expected one entry of samples per channel, and a preview of 1 x 1 or more");
         Status status = f.index();
         MeshLayer layer;
         if (status)

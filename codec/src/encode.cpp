@@ -113,7 +113,7 @@ Status Encoder::build_hierarchy()
     if (m_hierarchy) {
         const bool fits = m_hierarchy->width == int(m_desc.data.width) && m_hierarchy->height == int(m_desc.data.height)
             && !m_hierarchy->empty();
-        return fits ? Status() : Status::failure("pimg: the hierarchy is not one of this picture");
+        return fits ? Status() : Status::failure("pimg: the hierarchy is empty or for a picture of another size");
     }
     const std::vector<float> guide = luma(m_desc, m_integers);
     SimplifyOptions options;
@@ -324,12 +324,13 @@ Status encode(const PictureDesc& desc, const std::vector<ConstStridedChannel>& s
         return status;
     if (samples.size() != desc.channels.size()
         || std::any_of(samples.begin(), samples.end(), [](const ConstStridedChannel& p) { return !p.data; }))
-        return Status::failure("pimg: one plane of samples per channel is needed");
+        return Status::failure("pimg: expected one entry of samples per channel, none of them null");
     if (options.tile < 16 || options.tile > 1024 || !(options.vertices >= 0.0f && options.vertices <= 0.3f))
-        return Status::failure("pimg: tile must be 16 to 1024, vertices 0 to 0.3");
+        return Status::failure("pimg: expected a tile of 16 to 1024 and vertices of 0 to 0.3");
     for (const Attribute& a : desc.attributes)
         if (a.name.size() > 65535 || a.type.size() > 255 || a.value.size() > 0x7fffffffu)
-            return Status::failure("pimg: an attribute is too large");
+            return Status::failure("pimg: an attribute is too large: expected a name of up to 65535 bytes, a type of "
+                                   "up to 255, a value below 2^31");
     return guarded([&] {
         EncodeStats mine;
         Bytes bytes;

@@ -11,7 +11,8 @@
 
 namespace pimg {
 
-/// What body() returns; what it throws, from memory that runs out to the caller's own callbacks, as a failure.
+/// Returns what body() returns. If it throws, because memory runs out or a callback of the caller throws, returns a
+/// failure.
 template<class Body>
 Status guarded(Body&& body)
 {

@@ -84,26 +84,32 @@ const std::vector<Filter>& filter_table()
     using Out = FilterOutput;
     static const std::vector<Filter> table = {
         row<LevelOptions, iba::level_image, Out::picture>(
-            { "level", "--level", "picture of a coarser mesh; at most one key, none for the finest" },
+            { "level", "--level",
+              "shows a coarser mesh as a picture; at most one key chooses the level, none the finest" },
             { "SPLITS", "splits", "" }),
         row<WireframeOptions, iba::wireframe, Out::picture>(
-            { "wireframe", "--wireframe", "edges of the mesh of a level, chosen as for --level" }),
+            { "wireframe", "--wireframe", "draws the edges of the mesh of a level, which is chosen as for --level" }),
         row<FeatureLowpassOptions, iba::feature_lowpass, Out::picture>(
-            { "feature_lowpass", "--feature-lowpass", "drops small features and keeps the edges of large ones" },
+            { "feature_lowpass", "--feature-lowpass",
+              "removes texture and small features, and keeps the edges of large ones" },
             { "SPLITS", "splits", "fraction" }),
         row<DetailEnhanceOptions, iba::detail_enhance, Out::unbounded>(
-            { "detail_enhance", "--detail-enhance", "amplifies the details of a range of splits" },
+            { "detail_enhance", "--detail-enhance",
+              "amplifies details: those of a range of vertex splits, or those of low contrast" },
             { "GAIN", "gain", "" }),
         row<HdrCompressOptions, iba::hdr_compress, Out::light>(
             { "hdr_compress", "--hdr-compress", "fits high dynamic range to a display: linear light, white at 1" }),
         row<DualPiecesOptions, iba::dual_pieces, Out::labels>(
-            { "dual_pieces", "--dual-pieces", "pixels that each vertex of a level stands for, chosen as for --level" }),
+            { "dual_pieces", "--dual-pieces",
+              "finds the pixels that each vertex of a level stands for; the level is chosen as for --level" }),
         row<SegmentOptions, iba::segment, Out::labels>(
-            { "segment", "--segment", "merges what looks alike into connected regions" }, { "REGIONS", "regions", "" }),
+            { "segment", "--segment", "partitions the picture into connected regions of similar colour" },
+            { "REGIONS", "regions", "" }),
         row<PaintOptions, iba::paint, Out::picture>(
             { "paint", "--paint", "paints with brush strokes that follow the picture's forms" }),
-        row<MosaicOptions, iba::mosaic, Out::picture>({ "mosaic", "--mosaic", "lays the pieces of a level as tiles" }),
-        row<InkOptions, iba::ink, Out::picture>({ "ink", "--ink", "draws with pen and ink" }),
+        row<MosaicOptions, iba::mosaic, Out::picture>(
+            { "mosaic", "--mosaic", "makes a mosaic of tiles that follow the picture's forms" }),
+        row<InkOptions, iba::ink, Out::picture>({ "ink", "--ink", "draws the picture with pen and ink" }),
     };
     return table;
 }

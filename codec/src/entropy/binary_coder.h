@@ -44,7 +44,7 @@ private:
     Bytes m_out;
 };
 
-/// Past the end of its bytes it reads zeros; overrun() tells, and callers ask often enough.
+/// Past the end of its bytes it reads zeros. overrun() tells whether that happened; callers check it from time to time.
 class BinaryReader {
 public:
     BinaryReader(const std::uint8_t* data, std::size_t size);

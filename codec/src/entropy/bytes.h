@@ -18,7 +18,7 @@ inline void put_u8(Bytes& out, std::uint32_t v)
 void put_u16(Bytes& out, std::uint32_t v);
 void put_u32(Bytes& out, std::uint32_t v);
 void put_u64(Bytes& out, std::uint64_t v);
-/// Seven bits a byte, lowest first, the eighth set on all but the last.
+/// A number in groups of seven bits, the lowest first; the eighth bit of a byte is set on all but the last.
 void put_varint(Bytes& out, std::uint64_t v);
 void put_bytes(Bytes& out, const void* data, std::size_t size);
 

@@ -19,7 +19,7 @@ namespace pimg {
 /// Values of the mesh layer stay within +-2^17.
 constexpr std::int32_t kMeshValueLow = -(1 << 17), kMeshValueHigh = (1 << 17) - 1;
 
-/// Every batch splits at least one vertex in so many: bounds what going through them can cost.
+/// Every batch splits at least one of this many vertices. This limits the time that reading batches can take.
 constexpr Index kSparsestBatch = 256;
 
 /// Constants of one mesh layer.
@@ -37,7 +37,7 @@ struct MeshModels {
     std::vector<NumberModel> detail;  ///< [channel][t or u][how large the channel before]
 };
 
-/// One vertex split as the file has it.
+/// One vertex split as it is stored.
 struct LayerSplit {
     Index s = 0;
     int vr = 0, vl = 0;  ///< places in the ring of s, which starts at its smallest number

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the engine writes down about each collapse, and how the sequence becomes a hierarchy.
+// The record of each collapse, and how the sequence of records becomes a hierarchy.
 #pragma once
 
 #include <vector>
@@ -13,8 +13,8 @@
 
 namespace pimg {
 
-/// One edge collapse in the order it was done. Vertices go by name: the mesh pixel, or the vertex of the initial mesh,
-/// they started as; s keeps the name of t.
+/// One edge collapse; records are in the order in which collapses were done. Vertices are identified by names: the number
+/// of the mesh pixel, or of the vertex of the initial mesh, that a vertex started as. s keeps the name of t.
 struct CollapseRecord {
     Split split;  ///< s = name of t
     Index u;      ///< name of u
@@ -40,7 +40,7 @@ struct CollapseSequence {
     std::vector<BaseVertex> base;
 };
 
-/// What the finest mesh stands for.
+/// What the finest mesh was made from.
 struct Finest {
     const Guide& guide;          ///< samples per mesh pixel
     const InitialMesh* initial;  ///< tells where names are; none: names are pixels

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the working mesh to vectors: neighbours, one cache line each, are turned on their side into lanes, a neighbour a
-// lane. Included once per instruction set.
+// Loads the neighbours of a vertex, one cache line each, and transposes them into SIMD lanes, one neighbour per lane.
+// Included once per instruction set.
 #if defined(PIMG_EDGE_FAN_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef PIMG_EDGE_FAN_INL_H
 #undef PIMG_EDGE_FAN_INL_H

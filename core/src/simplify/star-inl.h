@@ -88,8 +88,8 @@ HWY_INLINE void pad(Index* ring, int degree)
 
 // -- before the collapse -------------------------------------------------------------------------------------------
 
-/// Ring of the star of t and its neighbour j. False when topology or the sides of the picture forbid the
-/// collapse (link condition, ghost counted).
+/// Finds the ring that merging t with its neighbour j would give. False when the link condition (with the ghost counted
+/// as a vertex) or the sides of the picture forbid the collapse.
 HWY_INLINE bool join_rings(const WorkingMesh& mesh, Index t, int j, Star& star)
 {
     const Node& node = mesh.nodes[t];
@@ -164,7 +164,7 @@ HWY_INLINE bool keeps_shape(const Star& star, float least, float x, float y)
         const Vec3 a = corner(star.corners, star.corners.z, j), b = corner(star.corners, star.corners.z, j + 1);
         const auto ex = a.x - vx, ey = a.y - vy, fx = b.x - vx, fy = b.y - vy, gx = a.x - b.x, gy = a.y - b.y;
         const auto longest = hn::Max(hn::Max(ex * ex + ey * ey, fx * fx + fy * fy), gx * gx + gy * gy);
-        // Asked so that a NaN is a no.
+        // Written so that a NaN counts as refused.
         const auto enough = hn::Ge(ex * fy - fx * ey, guard * longest);
         const auto none = hn::Le(whole(star.corners, j), hn::Zero(d));
         ok &= hn::AllTrue(d, hn::Or(enough, none));
@@ -174,7 +174,7 @@ HWY_INLINE bool keeps_shape(const Star& star, float least, float x, float y)
 
 // -- the record ----------------------------------------------------------------------------------------------------
 
-/// Whether every corner is so close that areas fit 32 bits: for all but the coarsest levels.
+/// Whether all corners are so close that areas fit into 32 bits, as they do on all but the coarsest levels.
 HWY_INLINE bool is_near(const Star& star)
 {
     constexpr float kNear = 256.0f;
@@ -185,7 +185,7 @@ HWY_INLINE bool is_near(const Star& star)
     return hn::AllTrue(d, hn::Lt(far, hn::Set(d, kNear)));
 }
 
-/// What project() of collapse_record.h says, with `p` and `s` relative to t, all faces at once.
+/// The same as project() of pimg/detail/projection.h, with `p` and `s` relative to t, for all faces at once.
 HWY_INLINE Projection project(const Star& star, Point p, Point s, bool near)
 {
     if (near) {

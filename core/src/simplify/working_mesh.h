@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mesh while it is being simplified: one cache line of vertex, one of ring, a key. Vertices are numbered tile by
-// tile (tiles in Morton order), so that a tile's vertices lie together in memory; survivors are
-// renumbered in the same order whenever half of them are gone, and four tiles then become one.
+// The mesh while it is being simplified. A vertex takes one cache line for itself, one for its ring, and a key.
+// Vertices are numbered tile by tile (tiles in Morton order), so that a tile's vertices lie together in memory;
+// survivors are renumbered in the same order whenever half of them are gone, and four tiles then become one.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct alignas(64) Node {
     float z;       ///< intensity
     Point p;       ///< position
     Index name;    ///< name of the vertex whose number it keeps: its mesh pixel, or its place in the initial mesh
-    float order;   ///< cost of its last collapse, made monotone along dependencies
+    float order;   ///< cost of its last collapse, but no lower than that of any collapse this one depends on
     Home home;
     std::uint8_t degree;  ///< 0: merged into another
     std::uint8_t side;    ///< Side
@@ -46,7 +46,7 @@ struct Zone {
 };
 constexpr Zone kEverywhere = { 0, 0, 1 << 16, 1 << 16 };
 
-/// What follows the last neighbour in a ring, up to its end: no vertex, and not the ghost.
+/// Fills a ring after its last neighbour. It is neither a vertex nor the ghost.
 constexpr Index kNoVertex = kGhost - 1;
 
 class WorkingMesh {
@@ -57,7 +57,7 @@ public:
     FlatArray<Node> nodes;
     FlatArray<Ring> rings;  ///< padded with kNoVertex
     FlatArray<float>
-        keys;  ///< cost from which on a vertex is worth a look; infinite: not before its neighbourhood changes
+        keys;  ///< cost limit from which on a vertex is evaluated; infinite: not until its neighbourhood changes
     std::vector<Tile> tiles;
     int more_channels = 0;          ///< guide channels besides the first
     std::vector<ChannelSums> more;  ///< of vertex v: [v * more_channels, (v + 1) * more_channels)
@@ -79,7 +79,7 @@ public:
     Zone zone(const Tile& tile) const;
     std::size_t bytes() const;
 
-    /// When half of the numbers are free: renumbers, and merges tiles that have become small.
+    /// If half of the numbers are free, renumbers the vertices, and merges tiles that have become small.
     void compact_if_sparse(const ParallelFor& parallel);
 
     void prefetch_node(Index v) const { prefetch_at(nodes.data(), v, sizeof(Node)); }
@@ -91,7 +91,7 @@ public:
     }
 
 private:
-    /// Of the ghost, too: a wrong address does no harm, and asking costs more.
+    /// Also prefetches for the ghost: a wrong address does no harm, and a test for it would take longer.
     static void prefetch_at(const void* first, Index v, std::size_t size)
     {
         __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(first) + v * size));

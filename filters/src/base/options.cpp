@@ -131,7 +131,7 @@ bool check_alternatives(const std::vector<const OptionRule*>& given, std::string
     for (const OptionRule* rule : given)
         for (const OptionRule* other : given)
             if (rule != other && *rule->sets != '\0' && std::string_view(rule->sets) == other->sets) {
-                error = std::string(rule->key) + " and " + other->key + " both say the " + rule->sets
+                error = std::string(rule->key) + " and " + other->key + " both set the " + rule->sets
                     + ": expected only one of them";
                 return false;
             }
@@ -186,7 +186,7 @@ std::string unknown_option(std::string_view key, const std::vector<std::string_v
 }
 
 // ---- the tables -------------------------------------------------------------------------------------------
-// key, min, max, unit, choices, help; a range of 0, 0 stands for any.
+// key, min, max, unit, choices, help; a range of 0, 0 stands for any number.
 
 template<>
 const std::vector<Option<BuildOptions>>& option_table<BuildOptions>()
@@ -195,17 +195,21 @@ const std::vector<Option<BuildOptions>>& option_table<BuildOptions>()
     static const std::vector<Option<T>> table = {
         { &T::guide,
           { "guide", 0, 0, "", "luma|log|rgb|lab", "what decides the mesh; log for half/float pictures, else luma" } },
-        { &T::weights, { "weights", 0, 0, "", "", "of the guide's channels, such as 1,0.5,0.5; 1 each if not given" } },
-        { &T::base, { "base", 2, kAnyInt, "faces", "", "size of the base mesh" } },
+        { &T::weights,
+          { "weights", 0, 0, "", "", "factors on the errors of the guide's channels, such as 1,0.5,0.5; else 1" } },
+        { &T::base, { "base", 2, kAnyInt, "faces", "", "triangles of the base mesh, the coarsest level" } },
         { &T::metric,
-          { "metric", 0, 0, "", "volume|quadric|exact", "cost of a collapse; the last two are slow, to compare" } },
+          { "metric", 0, 0, "", "volume|quadric|exact",
+            "cost of a collapse; quadric and exact are slow, for comparison" } },
         { &T::incolorspace,
           { "incolorspace", 0, 0, "", "",
-            "colour space of the picture; metadata, else sRGB for integers, else linear" } },
-        { &T::mesh, { "mesh", 0, 0, "", "full|adaptive", "a vertex for every pixel, or fewer: faster, still exact" } },
-        { &T::density, { "density", 1e-6, 1, "", "", "share of the pixels an adaptive mesh keeps" } },
+            "colour space; else that of the metadata; else floats linear, others sRGB" } },
+        { &T::mesh,
+          { "mesh", 0, 0, "", "full|adaptive",
+            "full: a vertex for every pixel; adaptive: fewer, faster and still exact" } },
+        { &T::density, { "density", 1e-6, 1, "", "", "share of the pixels that are vertices of an adaptive mesh" } },
         { &T::control,
-          { "control", 0, 0, "", "", "what density follows: gradient, curvature, or an image file", "", "",
+          { "control", 0, 0, "", "", "what density follows: gradient, curvature, or an image's brightness", "", "",
             FileUse::read } },
     };
     return table;
@@ -219,27 +223,33 @@ void add_strength_options(std::vector<Option<T>>& table)
 {
     table.push_back({ &T::strength,
                       { "strength", 0, kAnyFloat, "", "",
-                        "contrast smoothed away, in the picture's units; with log in stops", "cut-off" } });
+                        "contrast that is smoothed away, in the picture's units; with log in stops", "cut-off" } });
     table.push_back(
-        { &T::noise, { "noise", 0, kAnyFloat, "", "", "the same as a multiple of the estimated noise", "cut-off" } });
+        { &T::noise,
+          { "noise", 0, kAnyFloat, "", "", "instead of strength: a multiple of the estimated noise", "cut-off" } });
     table.push_back(
         { &T::log, { "log", 0, 0, "", "", "work on the channels' logarithms: for scene-referred pictures" } });
 }
 
-constexpr OptionRule kPartitionOutput = {
-    "output", 0, 0, "", "labels|mean|boundaries", "numbers from 0, mean colours, or 1 at the borders"
-};
+constexpr OptionRule kPartitionOutput = { "output",
+                                          0,
+                                          0,
+                                          "",
+                                          "labels|mean|boundaries",
+                                          "labels: numbers from 0; mean: mean colours; boundaries: 1 at the borders" };
 
 /// The level options of T, a struct derived from LevelOptions.
 template<class T>
 std::vector<Option<T>> level_table()
 {
     return {
-        { &T::splits, { "splits", 0, kAnyInt, "splits", "", "vertex splits applied to the base mesh", "level" } },
-        { &T::faces, { "faces", 2, kAnyInt, "faces", "", "triangles of the mesh", "level" } },
-        { &T::vertices, { "vertices", 4, kAnyInt, "vertices", "", "vertices of the mesh", "level" } },
-        { &T::fraction, { "fraction", 0, 1, "", "", "share of the picture's vertices", "level" } },
-        { &T::error, { "error", 0, kAnyFloat, "", "", "largest collapse cost left out", "level" } },
+        { &T::splits,
+          { "splits", 0, kAnyInt, "splits", "", "number of vertex splits applied to the base mesh", "level" } },
+        { &T::faces, { "faces", 2, kAnyInt, "faces", "", "largest number of triangles of the mesh", "level" } },
+        { &T::vertices, { "vertices", 4, kAnyInt, "vertices", "", "largest number of vertices of the mesh", "level" } },
+        { &T::fraction,
+          { "fraction", 0, 1, "", "", "the same as a share of the vertices of the finest mesh", "level" } },
+        { &T::error, { "error", 0, kAnyFloat, "", "", "largest cost of a vertex split that is left out", "level" } },
     };
 }
 
@@ -285,9 +295,10 @@ const std::vector<Option<FeatureLowpassOptions>>& option_table<FeatureLowpassOpt
         std::vector<Option<T>> all;
         add_strength_options(all);
         all.push_back({ &T::splits,
-                        { "splits", 0, kAnyInt, "splits", "", "in place of these: vertex splits whose details are kept",
-                          "cut-off" } });
-        all.push_back({ &T::fraction, { "fraction", 0, 1, "", "", "the same as a share of all splits", "cut-off" } });
+                        { "splits", 0, kAnyInt, "splits", "",
+                          "instead of strength: number of vertex splits whose details are kept", "cut-off" } });
+        all.push_back(
+            { &T::fraction, { "fraction", 0, 1, "", "", "the same as a share of all vertex splits", "cut-off" } });
         return all;
     }();
     return table;
@@ -303,11 +314,11 @@ const std::vector<Option<DetailEnhanceOptions>>& option_table<DetailEnhanceOptio
         add_strength_options(all);
         all.push_back({ &T::from,
                         { "from", 0, kAnyInt, "", "",
-                          "in place of these: first split amplified, a share of all or, above 1, their number" } });
-        all.push_back({ &T::to, { "to", 0, kAnyInt, "", "", "end of the range, likewise" } });
+                          "without strength, noise and log: first split amplified, a share or, above 1, a number" } });
+        all.push_back({ &T::to, { "to", 0, kAnyInt, "", "", "end of the range of splits, in the same way" } });
         all.push_back({ &T::curve,
                         { "curve", 0, 0, "", "",
-                          "position:gain,position:gain,... linear in between; instead of gain, from and to" } });
+                          "instead of gain, from and to: position:gain,position:gain,... linear in between" } });
         return all;
     }();
     return table;
@@ -319,13 +330,15 @@ const std::vector<Option<SegmentOptions>>& option_table<SegmentOptions>()
     using T = SegmentOptions;
     static const std::vector<Option<T>> table = {
         { &T::regions,
-          { "regions", 1, kAnyInt, "regions", "", "how many; 200 without threshold", "number of regions" } },
-        { &T::threshold,
-          { "threshold", 0, kAnyFloat, "", "", "cost that every border left exceeds: squared CIELAB units times pixels",
+          { "regions", 1, kAnyInt, "regions", "", "number of regions; 200 if threshold is not given either",
             "number of regions" } },
+        { &T::threshold,
+          { "threshold", 0, kAnyFloat, "", "",
+            "merge until every border costs more, in squared CIELAB units times pixels", "number of regions" } },
         { &T::output, kPartitionOutput },
         { &T::stats,
-          { "stats", 0, 0, "", "", "file for figures of every region: .json or else CSV", "", "", FileUse::written } },
+          { "stats", 0, 0, "", "", "file for a table of the regions: JSON if it ends in .json, else CSV", "", "",
+            FileUse::written } },
     };
     return table;
 }
@@ -335,17 +348,19 @@ const std::vector<Option<HdrCompressOptions>>& option_table<HdrCompressOptions>(
 {
     using T = HdrCompressOptions;
     static const std::vector<Option<T>> table = {
-        { &T::s0, { "s0", 0, 1, "", "", "scale of the base and of the largest details; 0: found from the picture" } },
-        { &T::beta, { "beta", 0, 1000, "", "", "how fast smaller details are compressed less" } },
-        { &T::dmax, { "dmax", 0, 256, "stops", "", "detail that is compressed fully; 0: found" } },
+        { &T::s0, { "s0", 0, 1, "", "", "factor on the base and on the largest details; 0: found from the picture" } },
+        { &T::beta, { "beta", 0, 1000, "", "", "how fast compression gets weaker towards smaller details" } },
+        { &T::dmax, { "dmax", 0, 256, "stops", "", "size from which on details are compressed fully; 0: found" } },
         { &T::coherence,
-          { "coherence", 0, 1, "", "", "how far details are compressed like the coarser features around; 0: not" } },
-        { &T::saturation, { "saturation", 0, 4, "", "", "exponent of the colour ratio; 1 keeps colours, 0 is grey" } },
+          { "coherence", 0, 1, "", "", "how far details are compressed like coarser features around them; 0: not" } },
+        { &T::saturation,
+          { "saturation", 0, 4, "", "",
+            "exponent on the ratio of a channel to luminance; 1 keeps colours, 0 makes grey" } },
         { &T::fit, { "fit", 0, 0, "", "", "fit the result to the display; 0: leave it in the picture's units" } },
         { &T::contrast, { "contrast", 0, 8, "", "", "factor on the compressed log luminance; 0: found" } },
         { &T::key, { "key", 0, kAnyFloat, "", "", "luminance after compression shown as middle grey; 0: found" } },
         { &T::white, { "white", 0, kAnyFloat, "", "", "luminance after compression shown as white; 0: found" } },
-        { &T::exposure, { "exposure", -20, 20, "stops", "", "brightness added" } },
+        { &T::exposure, { "exposure", -20, 20, "stops", "", "added to the exposure" } },
     };
     return table;
 }
@@ -358,24 +373,27 @@ const std::vector<Option<PaintOptions>>& option_table<PaintOptions>()
         { &T::min, { "min", 1, 1000, "pixels", "", "width of the narrowest brush" } },
         { &T::max, { "max", 1, 1000, "pixels", "", "width of the widest brush" } },
         { &T::brush,
-          { "brush", 0, 0, "", "", "round, flat, bristle, knife, or a picture: alpha where, grey how thick", "", "",
+          { "brush", 0, 0, "", "", "round, flat, bristle, knife, or a picture (alpha: where, grey: how thick)", "", "",
             FileUse::read } },
         { &T::length, { "length", 0, 10, "", "", "factor on the length of strokes" } },
         { &T::tolerance,
-          { "tolerance", 0, 255, "8-bit steps", "", "least improvement a stroke must bring; 0: all strokes" } },
-        { &T::opacity, { "opacity", 0, 1, "", "", "of every stroke; 0 leaves the canvas as it is" } },
+          { "tolerance", 0, 255, "8-bit steps", "",
+            "least improvement a stroke must bring; 0: all strokes are painted" } },
+        { &T::opacity, { "opacity", 0, 1, "", "", "opacity of every stroke; 0 leaves the canvas as it is" } },
         { &T::impasto, { "impasto", 0, 1, "", "", "strength of the light on the relief of the paint" } },
         { &T::jitter_colour,
-          { "jitter_colour", 0, 1, "", "", "random change of a stroke's brightness, as a share of it", "",
+          { "jitter_colour", 0, 1, "", "", "largest random change of a stroke's brightness, as a share of it", "",
             "jitter_color" } },
-        { &T::jitter_angle, { "jitter_angle", 0, 1, "", "", "random turn of a stroke, as a share of 45 degrees" } },
-        { &T::jitter_size, { "jitter_size", 0, 1, "", "", "random change of a stroke's width, as a share of it" } },
-        { &T::seed, { "seed", 0, kAnyInt, "", "", "of all that is random" } },
+        { &T::jitter_angle,
+          { "jitter_angle", 0, 1, "", "", "largest random turn of a stroke, as a share of 45 degrees" } },
+        { &T::jitter_size,
+          { "jitter_size", 0, 1, "", "", "largest random change of a stroke's width, as a share of it" } },
+        { &T::seed, { "seed", 0, kAnyInt, "", "", "another seed gives other random changes" } },
         { &T::canvas,
-          { "canvas", 0, 0, "", "", "white, black, R,G,B or a picture to paint on; else the picture itself", "", "",
+          { "canvas", 0, 0, "", "", "canvas to paint on: white, black, R,G,B or a picture; else the source", "", "",
             FileUse::read } },
         { &T::detail,
-          { "detail", 0, 0, "", "", "picture scaling the brushes: white 1/4, 0.5 unchanged, black 4 times", "", "",
+          { "detail", 0, 0, "", "", "picture that scales brushes: white to 1/4, black to 4 times, 0.5 not", "", "",
             FileUse::read } },
         { &T::strokes,
           { "strokes", 0, 0, "", "", "FILE.svg or FILE.json to write the strokes to", "", "", FileUse::written } },
@@ -388,11 +406,13 @@ const std::vector<Option<MosaicOptions>>& option_table<MosaicOptions>()
 {
     using T = MosaicOptions;
     static const std::vector<Option<T>> table = {
-        { &T::tiles, { "tiles", 4, kAnyInt, "tiles", "", "number of tiles; at least those of the base mesh" } },
+        { &T::tiles,
+          { "tiles", 4, kAnyInt, "tiles", "", "number of tiles, at least as many as the base mesh has vertices" } },
         { &T::grout, { "grout", 0, 64, "pixels", "", "width of the joints" } },
         { &T::bevel, { "bevel", 0, 64, "pixels", "", "width of the slope around a tile" } },
         { &T::relief, { "relief", 0, 1, "", "", "how strongly the slopes are lit" } },
-        { &T::colour, { "colour", 0, 0, "", "", "of the joints: white, black, grey level or R,G,B", "", "color" } },
+        { &T::colour,
+          { "colour", 0, 0, "", "", "colour of the joints: white, black, a grey level or R,G,B", "", "color" } },
     };
     return table;
 }
@@ -402,12 +422,12 @@ const std::vector<Option<InkOptions>>& option_table<InkOptions>()
 {
     using T = InkOptions;
     static const std::vector<Option<T>> table = {
-        { &T::width, { "width", 0.5, 16, "pixels", "", "of the pen" } },
+        { &T::width, { "width", 0.5, 16, "pixels", "", "width of the pen" } },
         { &T::length, { "length", 0.1, 10, "", "", "factor on the length of lines" } },
         { &T::density, { "density", 0, 4, "", "", "factor on the darkness" } },
         { &T::outline, { "outline", 0, 4, "", "", "darkness added along edges" } },
-        { &T::cross, { "cross", 0, 0, "", "", "cross the lines where it is dark" } },
-        { &T::seed, { "seed", 0, kAnyInt, "", "", "of all that is random" } },
+        { &T::cross, { "cross", 0, 0, "", "", "draw lines in a second direction where it is dark" } },
+        { &T::seed, { "seed", 0, kAnyInt, "", "", "another seed gives other random changes" } },
         { &T::strokes,
           { "strokes", 0, 0, "", "", "FILE.svg or FILE.json to write the lines to", "", "", FileUse::written } },
     };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The frame every filter has in common: what the destination becomes, and how rows of results get into it.
+// What all filters have in common: they prepare the destination, and write rows of results into it.
 #pragma once
 
 #include <algorithm>
@@ -27,8 +27,8 @@ enum class ResultType {
     full_float  ///< float
 };
 
-/// Checks the source and the region and brings `dst` into being, as OpenImageIO's own functions do. Returns false with
-/// an error in `dst`. Afterwards `roi` lies within both pictures; it may be empty, and then there is nothing to do.
+/// Checks the source and the region, and initializes `dst` as OpenImageIO's own functions do. On failure returns false
+/// with an error in `dst`. Afterwards `roi` lies within both pictures; it may be empty, and then there is nothing to do.
 bool prepare(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, ResultType type);
 
 /// The same for results of one channel called `name`: a new `dst` has no other, and only the first of an old one
@@ -44,7 +44,7 @@ using RowFilter = std::function<void(int y, float* row)>;
 void write_rows(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, OIIO::ROI roi, const ParallelFor& parallel,
                 const RowFilter& filter);
 
-/// What becomes of samples that were not finite.
+/// What results have where samples of the source were not finite.
 enum class Specials { restored, replaced };
 
 /// write_rows() with the colour channels taken from `results`, one raster of the picture's size each.
@@ -63,7 +63,7 @@ void for_specials(const ProgressiveImage::Data& data, Index first, std::size_t c
         body(*s);
 }
 
-/// The second part of a filter's usual shape: options are checked, exceptions end here.
+/// Checks the options, then runs the body of a filter. Exceptions of the body become errors of `dst`.
 template<class Options, class Body>
 bool run_filter(OIIO::ImageBuf& dst, const Options& options, Body&& body)
 {

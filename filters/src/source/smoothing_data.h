@@ -43,7 +43,7 @@ SmoothingData prepare_smoothing(const ProgressiveImage::Data& data, bool log);
 /// The strength the options ask for, in units of `smoothing`; the default if they do not say.
 float find_strength(const StrengthOptions& options, const SmoothingData& smoothing);
 
-/// Makes rasters of core's results ones of the picture's size, in its units.
+/// Converts results of core to rasters of the picture's size, in the picture's units.
 void to_picture(const Hierarchy& hierarchy, const SmoothingData& smoothing, Channels& results);
 
 }  // namespace pimg
