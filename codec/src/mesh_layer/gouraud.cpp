@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <pimg/detail/pixel_span.h>
+
 namespace pimg {
 
 std::vector<Triangle> ordered_triangles(const Mesh& mesh)
@@ -141,34 +143,6 @@ SamplePoints SamplePoints::spread(std::uint32_t extent_x, std::uint32_t extent_y
 
 namespace {
 
-std::int64_t floor_div(std::int64_t a, std::int64_t b)
-{
-    return a / b - (a % b != 0 && (a < 0) != (b < 0));
-}
-
-/// First and last pixel of row y whose centres lie in the triangle, borders included.
-struct Span {
-    std::int64_t first, last;
-};
-
-Span span(const Point (&p)[3], std::int64_t y)
-{
-    Span s { INT32_MIN, INT32_MAX };
-    for (int k = 0; k < 3; ++k) {
-        const Point a = p[k], b = p[(k + 1) % 3];
-        // Inside is where rise * x <= limit, x in lattice units.
-        const std::int64_t rise = b.y - a.y;
-        const std::int64_t limit = std::int64_t(b.x - a.x) * (y * kSubpixels - a.y) + rise * a.x;
-        if (rise > 0)
-            s.last = std::min(s.last, floor_div(limit, rise * kSubpixels));
-        else if (rise < 0)
-            s.first = std::max(s.first, -floor_div(limit, -rise * kSubpixels));
-        else if (limit < 0)
-            return { 0, -1 };
-    }
-    return s;
-}
-
 /// The plane through a triangle's values, in 1/1024: value(x, y) = (start + per_x x + per_y y) >> 10, kept between
 /// the smallest and the largest of the three.
 struct Plane10 {
@@ -204,7 +178,7 @@ void fill(const Mesh& mesh, const std::vector<Triangle>& triangles, IndexRun num
         const Plane10 plane(p, values[t[0]], values[t[1]], values[t[2]]);
         const std::size_t first_row = std::size_t(std::lower_bound(ys.begin(), ys.end(), top) - ys.begin());
         for (std::size_t row = first_row; row < ys.size() && ys[row] <= bottom; ++row) {
-            const Span s = span(p, ys[row]);
+            const PixelSpan s = pixel_span(p, ys[row]);
             const std::int64_t from = std::max<std::int64_t>(s.first, xs.front());
             const std::int64_t to = std::min<std::int64_t>(s.last, xs.back());
             if (from > to)

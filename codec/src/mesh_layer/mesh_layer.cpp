@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "mesh_layer/mesh_layer_code.h"
+#include <pimg/detail/projection.h>
 
 namespace pimg {
 
@@ -83,24 +84,17 @@ bool is_split_ok(const Mesh& mesh, const CanonicalRing& ring, const LayerSplit& 
 
 IntegerStencil integer_stencil(Point p, Point s, const CanonicalRing& ring, int start)
 {
-    IntegerStencil found { kGhost, kGhost, 0, 0 };
-    for (int i = 0; i < ring.degree; ++i) {
-        const int k = (start + i) % ring.degree, next = (k + 1) % ring.degree;
-        if (ring.vertex[k] == kGhost || ring.vertex[next] == kGhost)
-            continue;
-        std::int64_t b = doubled_area(s, ring.point[k], p), a = doubled_area(s, p, ring.point[next]);
-        if (a < 0 || b < 0)
-            continue;
-        std::int64_t area = doubled_area(s, ring.point[k], ring.point[next]);
-        for (; area >= std::int64_t(1) << 46; area >>= 1) {
-            a >>= 1;
-            b >>= 1;
-        }
-        found = { ring.vertex[k], ring.vertex[next], std::min<std::int64_t>(65536, a * 65536 / area),
-                  std::min<std::int64_t>(65536, b * 65536 / area) };
-        break;
+    const StarFace face =
+        face_that_holds(ring.degree, ring.vertex, start, [&](int i) { return doubled_area(s, ring.point[i], p); });
+    if (!face.holds)
+        return { kGhost, kGhost, 0, 0 };
+    std::int64_t a = face.area_a, b = face.area_b, area = doubled_area(s, ring.point[face.a], ring.point[face.b]);
+    for (; area >= std::int64_t(1) << 46; area >>= 1) {
+        a >>= 1;
+        b >>= 1;
     }
-    return found;
+    return { ring.vertex[face.a], ring.vertex[face.b], std::min<std::int64_t>(65536, a * 65536 / area),
+             std::min<std::int64_t>(65536, b * 65536 / area) };
 }
 
 std::int32_t IntegerStencil::predict(const std::vector<std::int32_t>& z, Index s) const

@@ -178,9 +178,8 @@ std::vector<float> split_values(const Hierarchy& h, const std::vector<Bands>& ba
         for (Level i = 0; i < count; ++i) {
             const Stencil& k = h.stencils[i];
             const Detail d = bands[c].details[i];
-            const float s = z[k.s];
-            const float t = s + (k.wat * (z[k.at] - s) + k.wbt * (z[k.bt] - s)) + d.t;
-            const float u = s + (k.wau * (z[k.au] - s) + k.wbu * (z[k.bu] - s)) + d.u;
+            const SplitPair predicted = predict(k, z.data());
+            const float t = predicted.t + d.t, u = predicted.u + d.u;
             z[k.s] = t;
             z[h.base_vertices() + i] = u;
             float* to = &targets[(std::size_t(i) * bands.size() + c) * 2];

@@ -55,25 +55,12 @@ void volume_shares(const CollapseStar& star, Point t, Point u, VolumeShares& sha
 Projection project_onto(const CollapseStar& star, Point s, Point p)
 {
     const std::int64_t px = p.x - s.x, py = p.y - s.y;
-    const auto side = [&](int i) {
+    const StarFace face = face_that_holds(star.degree, star.ring, 0, [&](int i) {
         return (star.points[i].x - s.x) * py - (star.points[i].y - s.y) * px;
-    };
-    Projection found { kGhost, kGhost, 0.0f, 0.0f };
-    const std::int64_t first = side(0);
-    std::int64_t b = first;
-    for (int i = 0; i < star.degree; ++i) {
-        const int next = i + 1 < star.degree ? i + 1 : 0;
-        const std::int64_t after = next > 0 ? side(next) : first, a = -after;
-        const bool holds = a >= 0 && b >= 0;
-        if (star.ring[i] != kGhost && star.ring[next] != kGhost && (holds || found.a == kGhost)) {
-            const double area = double(star.areas[i]);
-            found = { star.ring[i], star.ring[next], float(double(a) / area), float(double(b) / area) };
-            if (holds)
-                break;
-        }
-        b = after;
-    }
-    return found;
+    });
+    if (face.a < 0)
+        return { kGhost, kGhost, 0.0f, 0.0f };
+    return projection(face, star.ring, star.areas[face.a]);
 }
 
 /// The vertices still there, as bits.

@@ -100,11 +100,10 @@ void sweep_splits(const Hierarchy& hierarchy, Level first, Level last, float* va
                 __builtin_prefetch(values + v);
         }
         const Stencil& k = stencil[i];
-        const float s = values[k.s];
+        const SplitPair predicted = predict(k, values);
         const Detail d = detail_of(i);
-        const float t = s + (k.wat * (values[k.at] - s) + k.wbt * (values[k.bt] - s)) + d.t;
-        made[i] = s + (k.wau * (values[k.au] - s) + k.wbu * (values[k.bu] - s)) + d.u;
-        values[k.s] = t;
+        made[i] = predicted.u + d.u;
+        values[k.s] = predicted.t + d.t;
     }
 }
 

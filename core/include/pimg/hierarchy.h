@@ -35,6 +35,23 @@ struct Stencil {
     float wat, wbt, wau, wbu;
 };
 
+/// Value at a point of a triangle whose corners have the values s, a and b; `wa` and `wb` are the point's barycentric
+/// weights of a and b. All that is interpolated in a mesh is interpolated by this sum, in this order, so that the same
+/// point has the same bits everywhere.
+inline float interpolate(float s, float a, float b, float wa, float wb)
+{
+    return s + (wa * (a - s) + wb * (b - s));
+}
+
+/// What the coarser mesh predicts for t and u. `Places` is a Stencil, or has its members and says where the values of
+/// the five vertices are in `z`.
+template<class Places>
+SplitPair predict(const Places& k, const float* z)
+{
+    const float s = z[k.s];
+    return { interpolate(s, z[k.at], z[k.bt], k.wat, k.wbt), interpolate(s, z[k.au], z[k.bu], k.wau, k.wbu) };
+}
+
 /// A mesh pixel that is not a vertex of the finest mesh. a, b and c are the mesh pixels at the corners of the face that
 /// covers it, the smallest first. wb and wc are the barycentric weights of b and c. With the intensities z:
 ///     interpolation = z[a] + wb (z[b] - z[a]) + wc (z[c] - z[a])

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pimg/detail/parallel.h>
+#include <pimg/detail/pixel_span.h>
 #include <pimg/rasterize.h>
 
 #include <algorithm>
@@ -10,32 +11,15 @@ namespace pimg {
 
 namespace {
 
-std::int64_t floor_div(std::int64_t a, std::int64_t b)
-{
-    return a / b - (a % b != 0 && (a < 0) != (b < 0));
-}
-
-struct Span {
+struct Run {
     int first, last;
 };
 
-/// Pixels of row y whose centres lie in the triangle, borders included. Exact.
-Span span(const Point (&p)[3], int y)
+/// Pixels of row y of the picture whose centres lie in the triangle.
+Run pixels_of_row(const Point (&p)[3], int y, int width)
 {
-    Span s { std::numeric_limits<int>::min(), std::numeric_limits<int>::max() };
-    for (int k = 0; k < 3; ++k) {
-        const Point a = p[k], b = p[(k + 1) % 3];
-        // Inside is where rise * x <= limit, x in lattice units.
-        const std::int64_t rise = b.y - a.y;
-        const std::int64_t limit = std::int64_t(b.x - a.x) * (std::int64_t(y) * kSubpixels - a.y) + rise * a.x;
-        if (rise > 0)
-            s.last = int(std::min<std::int64_t>(s.last, floor_div(limit, rise * kSubpixels)));
-        else if (rise < 0)
-            s.first = int(std::max<std::int64_t>(s.first, -floor_div(limit, -rise * kSubpixels)));
-        else if (limit < 0)
-            return { 0, -1 };
-    }
-    return s;
+    const PixelSpan s = pixel_span(p, y);
+    return { int(std::max<std::int64_t>(0, s.first)), int(std::min<std::int64_t>(width - 1, s.last)) };
 }
 
 struct Plane {
@@ -93,16 +77,16 @@ std::size_t rasterize(const Mesh& mesh, const std::vector<const float*>& values,
                 const float* z = values[c];
                 const Plane shade = plane(p, z[tri[0]], z[tri[1]], z[tri[2]]);
                 for (int y = top; y <= bottom; ++y) {
-                    const Span s = span(p, y);
+                    const Run s = pixels_of_row(p, y, width);
                     float* row = samples[c] + std::size_t(y) * std::size_t(width);
-                    for (int x = std::max(0, s.first); x <= std::min(width - 1, s.last); ++x)
+                    for (int x = s.first; x <= s.last; ++x)
                         row[x] = shade.at(x, y);
                 }
             }
             for (int y = top; y <= bottom; ++y) {
-                const Span s = span(p, y);
+                const Run s = pixels_of_row(p, y, width);
                 char* row = covered.data() + std::size_t(y - y0) * std::size_t(width);
-                for (int x = std::max(0, s.first); x <= std::min(width - 1, s.last); ++x)
+                for (int x = s.first; x <= s.last; ++x)
                     row[x] = 1;
             }
         }

@@ -67,7 +67,7 @@ typename FeatureSweep<C>::Sample FeatureSweep<C>::predict(const Stencil& k, Inde
     const float *s = at(k.s), *pa = at(a), *pb = at(b);
     Sample p;
     for (int c = 0; c < C; ++c)
-        p.c[c] = s[c] + (wa * (pa[c] - s[c]) + wb * (pb[c] - s[c]));
+        p.c[c] = interpolate(s[c], pa[c], pb[c], wa, wb);
     return p;
 }
 

@@ -21,11 +21,8 @@ void values_to_details(const Hierarchy& h, const float* samples, Bands& bands)
     std::vector<float> values(h.vertices());
     std::vector<Detail>& details = bands.details;
     sweep(h, bands, values.data(), h.levels(), [&](Level i, Detail) {
-        const Stencil& k = h.stencils[i];
-        const float s = values[k.s];
-        const float t = s + (k.wat * (values[k.at] - s) + k.wbt * (values[k.bt] - s));
-        const float u = s + (k.wau * (values[k.au] - s) + k.wbu * (values[k.bu] - s));
-        details[i] = { details[i].t - t, details[i].u - u };
+        const SplitPair predicted = predict(h.stencils[i], values.data());
+        details[i] = { details[i].t - predicted.t, details[i].u - predicted.u };
         return details[i];
     });
     bands.residual.clear();
@@ -95,8 +92,7 @@ void interpolate_between(const Hierarchy& h, float* samples, const ParallelFor& 
 {
     in_batches(parallel, h.between.size(), [&](std::size_t i) {
         const PixelStencil& k = h.between[i];
-        const float a = samples[k.a];
-        samples[k.pixel] = a + (k.wb * (samples[k.b] - a) + k.wc * (samples[k.c] - a));
+        samples[k.pixel] = interpolate(samples[k.a], samples[k.b], samples[k.c], k.wb, k.wc);
     });
 }
 

@@ -95,11 +95,10 @@ void SweepPlan::sweep(Level first, Level last, float* values, DetailOf&& detail_
     for (Level i = first; i < last; ++i) {
         const PlannedSplit& k = m_splits[i];
         __builtin_prefetch(reinterpret_cast<const char*>(&k) + kAhead);
-        const float s = values[k.s];
+        const SplitPair predicted = predict(k, values);
         const Detail d = detail_of(i);
-        const float t = s + (k.wat * (values[k.at] - s) + k.wbt * (values[k.bt] - s)) + d.t;
-        values[k.u] = s + (k.wau * (values[k.au] - s) + k.wbu * (values[k.bu] - s)) + d.u;
-        values[k.s] = t;
+        values[k.u] = predicted.u + d.u;
+        values[k.s] = predicted.t + d.t;
     }
 }
 
