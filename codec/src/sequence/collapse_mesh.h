@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include <pimg/detail/ring_edit.h>
 #include <pimg/ring.h>
 #include <pimg/types.h>
 
@@ -16,10 +17,8 @@ namespace pimg {
 /// A ring in a cache line of its own.
 struct alignas(64) AlignedRing : Ring { };
 
-/// The ring that merging t and u leaves: from vr along t's side to vl (place `vl`), then along u's.
-struct CollapseStar {
-    int degree = 0, vl = 0;
-    Index ring[kMaxDegree] = {};
+/// The star that merging t and u leaves.
+struct CollapseStar : MergedRing {
     Point points[kMaxDegree] = {};
     std::int64_t areas[kMaxDegree] = {};  ///< twice that of each face of the merged vertex; is_place_ok() finds them
 };

@@ -19,8 +19,8 @@ std::vector<std::int32_t> diagonal_guide(const PictureDesc& desc, const std::vec
     const bool colour = c.size() >= 3 && c[0].type == c[1].type && c[0].type == c[2].type;
     PictureDesc used = desc;
     used.channels.resize(colour ? 3 : 1);
-    const std::vector<ConstStridedChannel> planes(samples.begin(), samples.begin() + (colour ? 3 : 1));
-    const Integers in = gather(used, planes, 0, 0, desc.data.width, desc.data.height);
+    const std::vector<ConstStridedChannel> first_channels(samples.begin(), samples.begin() + (colour ? 3 : 1));
+    const Integers in = gather(used, first_channels, 0, 0, desc.data.width, desc.data.height);
     const int shift = mesh_shift(c[0].type);
     const std::uint32_t width = std::max(2u, in.width), height = std::max(2u, in.height);
     std::vector<std::int32_t> guide;
@@ -94,31 +94,10 @@ void CollapseMesh::keep(const std::vector<Index>& survivors)
 
 bool CollapseMesh::load_star(Index t, Index u, CollapseStar& star) const
 {
-    const Ring &ring_t = rings[t], &ring_u = rings[u];
-    const int degree_t = vertices[t].degree, degree_u = vertices[u].degree;
-    const int n = degree_t + degree_u - 4;
-    if (n < 3 || n > kMaxDegree)
+    const RingOf of_t { t, rings[t], vertices[t].degree }, of_u { u, rings[u], vertices[u].degree };
+    if (!merge_rings(of_t, of_u, star, [&](Index q) { return vertices[q].degree; }))
         return false;
-    const int at = find(ring_t, degree_t, u), back = find(ring_u, degree_u, t);
-    if (at < 0 || back < 0)
-        return false;
-    int k = 0;
-    for (int j = at + 1; j < degree_t; ++j)
-        star.ring[k++] = ring_t.v[std::size_t(j)];
-    for (int j = 0; j < at; ++j)
-        star.ring[k++] = ring_t.v[std::size_t(j)];
-    star.vl = k - 1;
-    for (int i = 2, j = back + 2; i + 1 < degree_u; ++i, ++j) {
-        const Index q = ring_u.v[std::size_t(j < degree_u ? j : j - degree_u)];
-        if (find(ring_t, degree_t, q) >= 0)
-            return false;  // a third common neighbour
-        star.ring[k++] = q;
-    }
-    star.degree = n;
-    for (Index q : { star.ring[0], star.ring[star.vl] })
-        if (q != kGhost && vertices[q].degree <= 3)
-            return false;
-    for (int i = 0; i < n; ++i)
+    for (int i = 0; i < star.degree; ++i)
         star.points[i] = star.ring[i] == kGhost ? Point {} : vertices[star.ring[i]].at;
     return true;
 }

@@ -152,29 +152,15 @@ bool Mesh::collapse(Index s, Point p)
     if (size() < 2)
         return false;
     const Index u = size() - 1;
-    const int at = find(m_rings[s], m_degrees[s], u), back = find(m_rings[u], m_degrees[u], s);
-    const int degree_s = m_degrees[s], degree_u = m_degrees[u];
-    if (s == u || at < 0 || back < 0 || degree_s + degree_u - 4 > kMaxDegree || degree_s + degree_u - 4 < 3)
+    MergedRing merged;
+    if (s == u || !merge_rings({ s, m_rings[s], m_degrees[s] }, { u, m_rings[u], m_degrees[u] }, merged, [&](Index q) {
+            return m_degrees[q];
+        }))
         return false;
-    const auto at_place = [](const Ring& ring, int degree, int place) {
-        return ring.v[std::size_t(place < degree ? place : place - degree)];
-    };
-    Ring merged {};
-    int n = 0;
-    for (int k = 1; k < degree_s; ++k)
-        merged.v[std::size_t(n++)] = at_place(m_rings[s], degree_s, at + k);
-    const Index vr = merged.v[0], vl = merged.v[std::size_t(n - 1)];
-    for (Index q : { vl, vr })
-        if (q != kGhost && m_degrees[q] <= 3)
-            return false;
-    for (int k = 2; k + 1 < degree_u; ++k) {
-        const Index q = at_place(m_rings[u], degree_u, back + k);
-        if (find(m_rings[s], degree_s, q) >= 0)
-            return false;
-        merged.v[std::size_t(n++)] = q;
-    }
+    const int n = merged.degree;
+    const Index vr = merged.ring[0], vl = merged.ring[merged.vl];
     for (int k = 0; k < n; ++k) {
-        const Index q = merged.v[std::size_t(k)];
+        const Index q = merged.ring[k];
         if (q == kGhost)
             continue;
         if (q == vl || q == vr)
@@ -182,7 +168,7 @@ bool Mesh::collapse(Index s, Point p)
         else
             replace(m_rings[q], m_degrees[q], u, s);
     }
-    m_rings[s] = merged;
+    std::copy(merged.ring, merged.ring + n, m_rings[s].v.begin());
     m_degrees[s] = std::uint8_t(n);
     m_points[s] = p;
     m_points.pop_back();

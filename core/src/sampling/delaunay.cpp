@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "sampling/guide_jump.h"
+
 namespace pimg {
 
 namespace {
@@ -258,10 +260,7 @@ void Sweep::flip_remaining()
     }
     const auto jump = [&](Index from, Index to) {
         const Index p = m_mesh.pixels[m_mesh.corners[from]], q = m_mesh.pixels[m_mesh.corners[to]];
-        float sum = 0.0f;
-        for (const GuideChannel& c : m_guide.channels)
-            sum += c.weight * (c.samples[p] - c.samples[q]) * (c.samples[p] - c.samples[q]);
-        return sum;
+        return squared_jump(m_guide, p, q);
     };
     for (Index e : ties) {
         const Index twin = m_mesh.twins[e];

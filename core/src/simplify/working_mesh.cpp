@@ -2,6 +2,7 @@
 #include <pimg/detail/parallel.h>
 #include <pimg/detail/ring_edit.h>
 
+#include "sampling/guide_jump.h"
 #include "simplify/working_mesh.h"
 
 #include <algorithm>
@@ -45,18 +46,6 @@ void for_tiles(int width, int height, Visit&& visit)
             visit(PixelTile { x, y, int(x) * kTile, int(y) * kTile, std::min(width, int(x + 1) * kTile),
                               std::min(height, int(y + 1) * kTile) });
     }
-}
-
-/// Whether quad (x, y)..(x + 1, y + 1) is cut from upper left to lower right: along the smaller jump.
-bool falling_diagonal(const Guide& guide, int x, int y)
-{
-    float falling = 0.0f, rising = 0.0f;
-    for (const GuideChannel& c : guide.channels) {
-        const float* p = c.samples + std::size_t(y) * std::size_t(guide.width) + std::size_t(x);
-        falling += c.weight * (p[0] - p[guide.width + 1]) * (p[0] - p[guide.width + 1]);
-        rising += c.weight * (p[1] - p[guide.width]) * (p[1] - p[guide.width]);
-    }
-    return falling <= rising;
 }
 
 }  // namespace
@@ -194,7 +183,7 @@ void WorkingMesh::build_rows(const Guide& guide, int first, int last, const std:
     std::vector<std::uint8_t> above(std::size_t(width) + 1), below(std::size_t(width) + 1);
     const auto fill_below = [&](int y) {
         for (int x = 0; y >= 0 && y + 1 < height && x + 1 < width; ++x)
-            below[std::size_t(x) + 1] = falling_diagonal(guide, x, y);
+            below[std::size_t(x) + 1] = is_falling(guide, Index(y) * Index(width) + Index(x));
     };
     fill_below(first - 1);
     for (int y = first; y < last; ++y) {

@@ -2,6 +2,7 @@
 #include <pimg/detail/projection.h>
 #include <pimg/detail/ring_edit.h>
 
+#include "sampling/guide_jump.h"
 #include "simplify/metrics/collapse_metric.h"
 
 #include <algorithm>
@@ -34,15 +35,6 @@ PlainMesh::PlainMesh(const Guide& guide) : width(guide.width), height(guide.heig
     const auto pixel = [&](int x, int y) {
         return Index(y) * Index(width) + Index(x);
     };
-    // Whether quad (x, y) .. (x + 1, y + 1) is cut from upper left to lower right.
-    const auto falling = [&](int x, int y) {
-        float jump = 0.0f;
-        for (std::size_t c = 0; c < z.size(); ++c)
-            jump += weights[c]
-                * (std::fabs(z[c][pixel(x, y)] - z[c][pixel(x + 1, y + 1)])
-                   - std::fabs(z[c][pixel(x + 1, y)] - z[c][pixel(x, y + 1)]));
-        return jump <= 0.0f;
-    };
     constexpr int kStepX[8] = { 1, 1, 0, -1, -1, -1, 0, 1 };
     constexpr int kStepY[8] = { 0, 1, 1, 1, 0, -1, -1, -1 };
     for (int y = 0; y < height; ++y)
@@ -54,7 +46,8 @@ PlainMesh::PlainMesh(const Guide& guide) : width(guide.width), height(guide.heig
                 const int qx = x + kStepX[k], qy = y + kStepY[k];
                 Index q = kGhost;  // the outside shows once, however many steps point there
                 if (qx >= 0 && qy >= 0 && qx < width && qy < height) {
-                    if (k % 2 == 1 && falling(std::min(x, qx), std::min(y, qy)) != (kStepX[k] == kStepY[k]))
+                    if (k % 2 == 1
+                        && is_falling(guide, pixel(std::min(x, qx), std::min(y, qy))) != (kStepX[k] == kStepY[k]))
                         continue;
                     q = pixel(qx, qy);
                 } else if (find(rings[v], degree, kGhost) >= 0) {
@@ -181,29 +174,10 @@ void Collapser::consider(Index t, Index u, Plan& best)
     ++m_stats.refused;
 }
 
-/// False when the link condition (ghost counted) forbids the collapse or a ring would grow too large.
 bool Collapser::find_star(Index t, Index u, MergedRing& star) const
 {
-    const Ring &rt = m_mesh.rings[t], &ru = m_mesh.rings[u];
-    const int dt = m_mesh.degrees[t], du = m_mesh.degrees[u];
-    star.degree = dt + du - 4;
-    if (star.degree > kMaxDegree || star.degree < 3)
-        return false;
-    const int at = find(rt, dt, u), back = find(ru, du, t);
-    int n = 0;
-    for (int k = 1; k < dt; ++k)
-        star.ring[n++] = rt.v[std::size_t((at + k) % dt)];
-    star.vl = n - 1;
-    for (int k = 2; k + 1 < du; ++k) {
-        const Index q = ru.v[std::size_t((back + k) % du)];
-        if (find(rt, dt, q) >= 0)
-            return false;
-        star.ring[n++] = q;
-    }
-    for (int k : { 0, star.vl })
-        if (star.ring[k] != kGhost && m_mesh.degrees[star.ring[k]] <= 3)
-            return false;
-    return true;
+    return merge_rings({ t, m_mesh.rings[t], m_mesh.degrees[t] }, { u, m_mesh.rings[u], m_mesh.degrees[u] }, star,
+                       [&](Index q) { return m_mesh.degrees[q]; });
 }
 
 /// Whether v may move to p: never off a side of the picture.

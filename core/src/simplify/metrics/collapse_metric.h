@@ -30,13 +30,6 @@ struct PlainMesh {
     bool on_horizontal_side(Index v) const { return points[v].y == 0 || points[v].y == (height - 1) * kSubpixels; }
 };
 
-/// The ring that merging t and u would have: from vr around t to vl, then around u.
-struct MergedRing {
-    Index ring[kMaxDegree];
-    int degree = 0;
-    int vl = 0;  ///< place of vl; vr is first
-};
-
 class CollapseMetric {
 public:
     static constexpr int kMaxCandidates = 5;
