@@ -46,7 +46,7 @@ struct Tones {
 /// One direction of hatching: along the field or across it.
 class Hatch {
 public:
-    Hatch(const DirectionField& field, const PenSettings& options, Tones tones, bool across)
+    Hatch(const DirectionField& field, const PenOptions& options, Tones tones, bool across)
         : m_field(field),
           m_options(options),
           m_tones(std::move(tones)),
@@ -66,7 +66,7 @@ private:
     void claim(Vec2 from, Vec2 to);
 
     const DirectionField& m_field;
-    const PenSettings& m_options;
+    const PenOptions& m_options;
     Tones m_tones;
     bool m_across;
 };
@@ -146,7 +146,7 @@ void Hatch::draw(const Dab& dab, Strokes& lines)
 }
 
 /// Darkness with the edges' outlines added.
-std::vector<float> with_outlines(const float* darkness, int width, int height, const PenSettings& options)
+std::vector<float> with_outlines(const float* darkness, int width, int height, const PenOptions& options)
 {
     std::vector<float> wanted(std::size_t(width) * std::size_t(height));
     const auto clean = [&](int x, int y) {
@@ -170,7 +170,7 @@ std::vector<float> with_outlines(const float* darkness, int width, int height, c
 }  // namespace
 
 Status plan_ink(const Hierarchy& hierarchy, const float* darkness, const DirectionField& field,
-                const PenSettings& options, Strokes& lines)
+                const PenOptions& options, Strokes& lines)
 {
     const int width = field.width(), height = field.height();
     lines = {};

@@ -107,10 +107,10 @@ Tiling tile(const Mesh& mesh, const ParallelFor& parallel)
     return tiling;
 }
 
-void lay_mosaic(const Tiling& tiling, Index tiles, const MosaicSettings& settings,
-                const std::vector<float>& grout_colors, const std::vector<float*>& channels)
+void lay_mosaic(const Tiling& tiling, Index tiles, const TileOptions& options, const std::vector<float>& grout_colours,
+                const std::vector<float*>& channels)
 {
-    run(settings.parallel, channels.size(), [&](std::size_t c) {
+    run(options.parallel, channels.size(), [&](std::size_t c) {
         float* samples = channels[c];
         std::vector<double> sums(tiles, 0.0), counts(tiles, 0.0);
         std::vector<float> joints(tiles, 0.0f);
@@ -122,19 +122,19 @@ void lay_mosaic(const Tiling& tiling, Index tiles, const MosaicSettings& setting
         }
         // Half a joint's width; slivers keep two thirds of themselves.
         for (float& joint : joints)
-            joint = std::min(0.5f * settings.grout, joint / 3.0f);
+            joint = std::min(0.5f * options.grout, joint / 3.0f);
         for (std::size_t i = 0; i < tiling.tile.size(); ++i) {
             const Index t = tiling.tile[i];
             const float mean = float(sums[t] / counts[t]), depth = tiling.inside[i] - joints[t];
             float shade = mean;
-            if (settings.bevel > 0.0f && depth < settings.bevel) {
+            if (options.bevel > 0.0f && depth < options.bevel) {
                 // The slope falls towards the joint; it is lit where it faces the upper left.
-                const float slope = std::clamp(1.0f - depth / settings.bevel, 0.0f, 1.0f);
+                const float slope = std::clamp(1.0f - depth / options.bevel, 0.0f, 1.0f);
                 const float facing = 0.7071f * (tiling.away_x[i] + tiling.away_y[i]);
-                shade = mean * (1.0f + kLight * settings.relief * slope * facing);
+                shade = mean * (1.0f + kLight * options.relief * slope * facing);
             }
-            const float cover = settings.grout > 0.0f ? std::clamp(depth + 0.5f, 0.0f, 1.0f) : 1.0f;
-            samples[i] = grout_colors[c] + cover * (shade - grout_colors[c]);
+            const float cover = options.grout > 0.0f ? std::clamp(depth + 0.5f, 0.0f, 1.0f) : 1.0f;
+            samples[i] = grout_colours[c] + cover * (shade - grout_colours[c]);
         }
     });
 }

@@ -58,10 +58,10 @@ float reach_of(const Stroke& stroke)
 /// Keeps paint on its side of an edge.
 class EdgeStop {
 public:
-    EdgeStop(const Strokes& strokes, const PaintSettings& settings)
-        : m_picture(*settings.edges, settings.parallel),
-          m_least(kAcross * settings.crossing),
-          m_shades(stroke_colors(strokes, *settings.edges, *settings.edges, settings.parallel))
+    EdgeStop(const Strokes& strokes, const StrokePaintOptions& options)
+        : m_picture(*options.edges, options.parallel),
+          m_least(kAcross * options.crossing),
+          m_shades(stroke_colours(strokes, *options.edges, *options.edges, options.parallel))
     {
         m_shades.resize(std::min(m_shades.size(), std::tuple_size<Shade>::value));
     }
@@ -96,10 +96,10 @@ private:
 
 class TilePainter {
 public:
-    TilePainter(Box tile, const Brush& brush, const PaintSettings& settings, const EdgeStop* stop, Canvas& canvas)
+    TilePainter(Box tile, const Brush& brush, const StrokePaintOptions& options, const EdgeStop* stop, Canvas& canvas)
         : m_tile(tile),
           m_brush(brush),
-          m_settings(settings),
+          m_options(options),
           m_stop(stop),
           m_canvas(canvas)
     {
@@ -107,7 +107,7 @@ public:
         std::fill(std::begin(m_bare), std::end(m_bare), 1.0f);
     }
 
-    void paint(const Strokes& strokes, Index i, const std::vector<std::vector<float>>& colors);
+    void paint(const Strokes& strokes, Index i, const std::vector<std::vector<float>>& colours);
 
     /// After all strokes: shows the ground where there is too little paint.
     void fill_holes();
@@ -117,12 +117,12 @@ private:
     void look_up(const Stroke& stroke, float length, Box box);
     void stop_at_edges(const Shade& shade, Box box);
     void note_cover(Box box);
-    void blend(const std::vector<std::vector<float>>& colors, Index i, float brightness, float thickness, Box box);
+    void blend(const std::vector<std::vector<float>>& colours, Index i, float brightness, float thickness, Box box);
     int slot(int x, int y) const { return (y - m_tile.y0) * kTile + (x - m_tile.x0); }
 
     Box m_tile;
     const Brush& m_brush;
-    const PaintSettings& m_settings;
+    const StrokePaintOptions& m_options;
     const EdgeStop* m_stop;
     Canvas& m_canvas;
     // Per pixel of the tile: squared distance from the middle line, and where beside it; then alpha and height.
@@ -181,7 +181,7 @@ void TilePainter::look_up(const Stroke& stroke, float length, Box box)
                 : s <= total - zone  ? 0.25f + (s - zone) * per_middle
                                      : 1.0f - (total - s) * per_zone;
             const Paint paint = mask.at(u, v * per_width + 0.5f);
-            along[k] = paint.alpha * std::min(inside, 1.0f) * m_settings.opacity;
+            along[k] = paint.alpha * std::min(inside, 1.0f) * m_options.opacity;
             across[k] = paint.height;
             distance[k] = along[k];
         }
@@ -202,7 +202,7 @@ void TilePainter::stop_at_edges(const Shade& shade, Box box)
     }
 }
 
-void TilePainter::blend(const std::vector<std::vector<float>>& colors, Index i, float brightness, float thickness,
+void TilePainter::blend(const std::vector<std::vector<float>>& colours, Index i, float brightness, float thickness,
                         Box box)
 {
     const float grain = m_brush.grain();
@@ -212,10 +212,10 @@ void TilePainter::blend(const std::vector<std::vector<float>>& colors, Index i, 
         const float *alpha = m_along + row, *height = m_across + row;
         const std::size_t at = std::size_t(y) * std::size_t(m_canvas.width) + std::size_t(box.x0);
         for (std::size_t c = 0; c < m_canvas.channels.size(); ++c) {
-            const float color = brightness * colors[c][i];
+            const float colour = brightness * colours[c][i];
             float* out = m_canvas.channels[c] + at;
             for (int k = 0; k < columns; ++k) {
-                const float shade = color * (1.0f + grain * (height[k] - 0.5f));
+                const float shade = colour * (1.0f + grain * (height[k] - 0.5f));
                 const float mixed = out[k] + alpha[k] * (shade - out[k]);
                 out[k] = distance[k] < kFar ? mixed : out[k];
             }
@@ -232,7 +232,7 @@ void TilePainter::blend(const std::vector<std::vector<float>>& colors, Index i, 
 
 void TilePainter::note_cover(Box box)
 {
-    const float per_opacity = 1.0f / m_settings.opacity;
+    const float per_opacity = 1.0f / m_options.opacity;
     for (int y = box.y0; y < box.y1; ++y) {
         const int row = slot(box.x0, y);
         for (int k = 0; k < box.x1 - box.x0; ++k)
@@ -248,14 +248,14 @@ void TilePainter::fill_holes()
             const float hole = (m_bare[slot(x, y)] - kGap) / (kHole - kGap);
             if (hole <= 0.0f)
                 continue;
-            const float alpha = m_settings.opacity * std::min(hole, 1.0f);
+            const float alpha = m_options.opacity * std::min(hole, 1.0f);
             const std::size_t at = std::size_t(y) * std::size_t(m_canvas.width) + std::size_t(x);
             for (std::size_t c = 0; c < m_canvas.channels.size(); ++c)
-                m_canvas.channels[c][at] += alpha * (m_settings.ground->channels[c][at] - m_canvas.channels[c][at]);
+                m_canvas.channels[c][at] += alpha * (m_options.ground->channels[c][at] - m_canvas.channels[c][at]);
         }
 }
 
-void TilePainter::paint(const Strokes& strokes, Index i, const std::vector<std::vector<float>>& colors)
+void TilePainter::paint(const Strokes& strokes, Index i, const std::vector<std::vector<float>>& colours)
 {
     const Stroke& stroke = strokes.strokes[i];
     const Vec2* p = strokes.begin(stroke);
@@ -277,18 +277,18 @@ void TilePainter::paint(const Strokes& strokes, Index i, const std::vector<std::
     look_up(stroke, length, touched);
     if (m_stop)
         stop_at_edges(m_stop->shade(i), touched);
-    if (m_settings.ground)
+    if (m_options.ground)
         note_cover(touched);
-    const float brightness = 1.0f + m_settings.jitter_color * signed_unit(scramble(stroke.variation + 3));
-    blend(colors, i, brightness, kThickness * std::sqrt(stroke.width), touched);
+    const float brightness = 1.0f + m_options.jitter_color * signed_unit(scramble(stroke.variation + 3));
+    blend(colours, i, brightness, kThickness * std::sqrt(stroke.width), touched);
 }
 
 }  // namespace
 
-void paint_strokes(const Strokes& strokes, const std::vector<std::vector<float>>& colors, const Brush& brush,
-                   const PaintSettings& settings, Canvas& canvas)
+void paint_strokes(const Strokes& strokes, const std::vector<std::vector<float>>& colours, const Brush& brush,
+                   const StrokePaintOptions& options, Canvas& canvas)
 {
-    if (brush.empty() || settings.opacity <= 0.0f)
+    if (brush.empty() || options.opacity <= 0.0f)
         return;
     const int columns = (canvas.width + kTile - 1) / kTile, rows = (canvas.height + kTile - 1) / kTile;
     std::vector<std::vector<Index>> of_tile(std::size_t(columns) * std::size_t(rows));
@@ -304,15 +304,15 @@ void paint_strokes(const Strokes& strokes, const std::vector<std::vector<float>>
                 of_tile[std::size_t(y) * std::size_t(columns) + std::size_t(x)].push_back(i);
     }
     std::optional<EdgeStop> stop;
-    if (settings.edges)
-        stop.emplace(strokes, settings);
-    run(settings.parallel, of_tile.size(), [&](std::size_t t) {
+    if (options.edges)
+        stop.emplace(strokes, options);
+    run(options.parallel, of_tile.size(), [&](std::size_t t) {
         const int x = int(t % std::size_t(columns)) * kTile, y = int(t / std::size_t(columns)) * kTile;
         const Box tile { x, y, std::min(x + kTile, canvas.width), std::min(y + kTile, canvas.height) };
-        TilePainter painter(tile, brush, settings, stop ? &*stop : nullptr, canvas);
+        TilePainter painter(tile, brush, options, stop ? &*stop : nullptr, canvas);
         for (Index i : of_tile[t])
-            painter.paint(strokes, i, colors);
-        if (settings.ground)
+            painter.paint(strokes, i, colours);
+        if (options.ground)
             painter.fill_holes();
     });
 }

@@ -28,20 +28,20 @@ void add(std::string& text, float value)
         text += char('0' + rest % 10);
 }
 
-int byte_of(const ShownColors& colors, std::size_t channel, std::size_t stroke)
+int byte_of(const ShownColours& colours, std::size_t channel, std::size_t stroke)
 {
-    if (colors.empty())
+    if (colours.empty())
         return 0;
-    const float v = colors[channel < colors.size() ? channel : 0][stroke];
+    const float v = colours[channel < colours.size() ? channel : 0][stroke];
     return v > 0.0f ? int(std::lround(255.0f * (v < 1.0f ? v : 1.0f))) : 0;
 }
 
-std::string hexadecimal(const ShownColors& colors, std::size_t stroke)
+std::string hexadecimal(const ShownColours& colours, std::size_t stroke)
 {
     static constexpr char kDigits[] = "0123456789abcdef";
     std::string text = "#";
     for (std::size_t c = 0; c < 3; ++c) {
-        const int v = byte_of(colors, c, stroke);
+        const int v = byte_of(colours, c, stroke);
         text += kDigits[v >> 4];
         text += kDigits[v & 15];
     }
@@ -50,7 +50,8 @@ std::string hexadecimal(const ShownColors& colors, std::size_t stroke)
 
 }  // namespace
 
-std::string strokes_to_svg(const Strokes& strokes, const ShownColors& colors, float opacity, const std::string& ground)
+std::string strokes_to_svg(const Strokes& strokes, const ShownColours& colours, float opacity,
+                           const std::string& ground)
 {
     const std::string w = std::to_string(strokes.width), h = std::to_string(strokes.height);
     std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + w + "\" height=\"" + h
@@ -66,7 +67,7 @@ std::string strokes_to_svg(const Strokes& strokes, const ShownColors& colors, fl
     svg += ">\n";
     for (std::size_t i = 0; i < strokes.strokes.size(); ++i) {
         const Stroke& s = strokes.strokes[i];
-        svg += "<path stroke=\"" + hexadecimal(colors, i) + "\" stroke-width=\"";
+        svg += "<path stroke=\"" + hexadecimal(colours, i) + "\" stroke-width=\"";
         add(svg, s.width);
         svg += "\" d=\"M";
         for (Index k = 0; k < s.count; ++k) {
@@ -80,7 +81,7 @@ std::string strokes_to_svg(const Strokes& strokes, const ShownColors& colors, fl
     return svg + "</g>\n</svg>\n";
 }
 
-std::string strokes_to_json(const Strokes& strokes, const ShownColors& colors, float opacity)
+std::string strokes_to_json(const Strokes& strokes, const ShownColours& colours, float opacity)
 {
     std::string json = "{\"width\": " + std::to_string(strokes.width)
         + ", \"height\": " + std::to_string(strokes.height) + ", \"opacity\": ";
@@ -100,7 +101,7 @@ std::string strokes_to_json(const Strokes& strokes, const ShownColors& colors, f
         add(json, s.width);
         json += ", \"color\": [";
         for (std::size_t c = 0; c < 3; ++c)
-            json += (c ? ", " : "") + std::to_string(byte_of(colors, c, i));
+            json += (c ? ", " : "") + std::to_string(byte_of(colours, c, i));
         json += "], \"level\": " + std::to_string(s.level)
             + ", \"vertex\": " + (s.vertex == kGhost ? "-1" : std::to_string(s.vertex)) + "}";
     }

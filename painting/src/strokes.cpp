@@ -276,14 +276,14 @@ Status plan_strokes(const Hierarchy& hierarchy, const ChannelsView& guides, cons
     return {};
 }
 
-std::vector<std::vector<float>> stroke_colors(const Strokes& strokes, const ChannelsView& picture,
-                                              const ChannelsView& guides, const ParallelFor& parallel)
+std::vector<std::vector<float>> stroke_colours(const Strokes& strokes, const ChannelsView& picture,
+                                               const ChannelsView& guides, const ParallelFor& parallel)
 {
     constexpr std::size_t kBlock = 1024;
     // Steps of an 8-bit picture; nearer colours count as the same paint. Chosen by eye; more: duller colours.
     constexpr float kAlike = 16.0f;
     const std::size_t n = strokes.strokes.size();
-    std::vector<std::vector<float>> colors(picture.channels.size(), std::vector<float>(n));
+    std::vector<std::vector<float>> colours(picture.channels.size(), std::vector<float>(n));
     const auto pixel = [&](Vec2 p) {
         const int x = std::clamp(int(p.x + 0.5f), 0, picture.width - 1);
         const int y = std::clamp(int(p.y + 0.5f), 0, picture.height - 1);
@@ -313,10 +313,10 @@ std::vector<std::vector<float>> stroke_colors(const Strokes& strokes, const Chan
                 }
             }
             for (std::size_t c = 0; c < sums.size(); ++c)
-                colors[c][i] = float(sums[c] / total);
+                colours[c][i] = float(sums[c] / total);
         }
     });
-    return colors;
+    return colours;
 }
 
 }  // namespace pimg

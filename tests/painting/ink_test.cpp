@@ -14,7 +14,7 @@ namespace {
 
 class Ink : public testing::Test {
 protected:
-    Strokes lines(const PaintedScene& scene, const std::vector<float>& darkness, const PenSettings& pen = {}) const
+    Strokes lines(const PaintedScene& scene, const std::vector<float>& darkness, const PenOptions& pen = {}) const
     {
         Strokes planned;
         const DirectionField field(scene.guides, pen.parallel);
@@ -47,7 +47,7 @@ TEST_F(Ink, IsDenserWhereItIsDarker)
 TEST_F(Ink, LinesHaveThePensWidthAndStayInThePicture)
 {
     const PaintedScene scene(test::scene(120, 90));
-    PenSettings pen;
+    PenOptions pen;
     pen.width = 2.25f;
     const Strokes planned = lines(scene, darkness_of(scene), pen);
     EXPECT_GT(planned.strokes.size(), 20u);
@@ -66,7 +66,7 @@ TEST_F(Ink, WhitePaperAndNumbersThatAreNoneGetNoLines)
     const PaintedScene scene(test::scene(60, 40));
     for (const float v : { 0.0f, -3.0f, std::numeric_limits<float>::quiet_NaN() })
         EXPECT_TRUE(lines(scene, std::vector<float>(scene.samples.size(), v)).strokes.empty()) << v;
-    PenSettings pen;
+    PenOptions pen;
     pen.density = 0.0f;
     pen.outline = 0.0f;
     EXPECT_TRUE(lines(scene, darkness_of(scene), pen).strokes.empty());
@@ -78,7 +78,7 @@ TEST_F(Ink, WhitePaperAndNumbersThatAreNoneGetNoLines)
 TEST_F(Ink, CrossesWhereOneDirectionIsNotEnough)
 {
     const PaintedScene scene(test::make("dark", 96, 96, [](int x, int) { return x < 48 ? 230 : 10; }));
-    PenSettings one, two;
+    PenOptions one, two;
     one.cross = false;
     const std::vector<float> darkness = darkness_of(scene);
     EXPECT_GT(lines(scene, darkness, two).points.size(), lines(scene, darkness, one).points.size());
@@ -87,7 +87,7 @@ TEST_F(Ink, CrossesWhereOneDirectionIsNotEnough)
 TEST_F(Ink, SeedChangesOnlyTheVariation)
 {
     const PaintedScene scene(test::scene(90, 60));
-    PenSettings pen;
+    PenOptions pen;
     const Strokes a = lines(scene, darkness_of(scene), pen);
     pen.seed = 2;
     pen.parallel = test::backwards;

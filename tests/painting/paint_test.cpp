@@ -14,14 +14,14 @@ namespace {
 constexpr const char* kNames[] = { "round", "flat", "bristle", "knife" };
 
 std::vector<float> painted(const PaintedScene& scene, const StrokeOptions& options, const Brush& brush,
-                           PaintSettings settings, float ground)
+                           StrokePaintOptions settings, float ground)
 {
     const Strokes strokes = scene.strokes(options);
-    const auto colors = stroke_colors(strokes, scene.guides, scene.guides, options.parallel);
+    const auto colours = stroke_colours(strokes, scene.guides, scene.guides, options.parallel);
     std::vector<float> canvas(scene.samples.size(), ground);
     Canvas target { scene.guides.width, scene.guides.height, { canvas.data() }, nullptr };
     settings.parallel = options.parallel;
-    paint_strokes(strokes, colors, brush, settings, target);
+    paint_strokes(strokes, colours, brush, settings, target);
     return canvas;
 }
 
@@ -43,7 +43,7 @@ TEST(Paint, DoesNotDependOnTheOrderOfTheTiles)
     const PaintedScene scene(test::scene(200, 150));
     StrokeOptions forwards, reverse;
     reverse.parallel = test::backwards;
-    PaintSettings settings;
+    StrokePaintOptions settings;
     settings.edges = &scene.guides;
     const Brush brush = Brush::named("bristle");
     EXPECT_EQ(painted(scene, forwards, brush, settings, 0.0f), painted(scene, reverse, brush, settings, 0.0f));
@@ -52,7 +52,7 @@ TEST(Paint, DoesNotDependOnTheOrderOfTheTiles)
 TEST(Paint, StaysOnItsSideOfAnEdge)
 {
     const PaintedScene scene(test::make("step", 120, 90, [](int x, int y) { return x + y / 3 < 70 ? 30 : 220; }));
-    PaintSettings settings;
+    StrokePaintOptions settings;
     settings.edges = &scene.guides;
     const std::vector<float> canvas = painted(scene, {}, Brush::named("round"), settings, 125.0f);
     for (int y = 1; y < 89; ++y)  // the rim may be thinly covered: LeavesNoHoles
@@ -67,7 +67,7 @@ TEST(Paint, StaysOnItsSideOfAnEdge)
 TEST(Paint, OfOpacityZeroChangesNothing)
 {
     const PaintedScene scene(test::scene(64, 48));
-    PaintSettings settings;
+    StrokePaintOptions settings;
     settings.opacity = 0.0f;
     EXPECT_EQ(painted(scene, {}, Brush::named("bristle"), settings, 7.0f), std::vector<float>(64 * 48, 7.0f));
 }
@@ -97,7 +97,7 @@ TEST(Paint, ShowsTheGroundInHoles)
     const PaintedScene scene(test::scene(80, 60));
     std::vector<float> canvas(scene.samples.size(), -10000.0f);
     Canvas target { scene.guides.width, scene.guides.height, { canvas.data() }, nullptr };
-    PaintSettings settings;
+    StrokePaintOptions settings;
     settings.ground = &scene.guides;
     paint_strokes({}, { {} }, Brush::named("round"), settings, target);
     EXPECT_EQ(canvas, scene.samples) << "without strokes all is one hole";

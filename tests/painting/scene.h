@@ -16,7 +16,7 @@
 namespace pimg::test {
 
 /// The channels of a picture as painting takes them.
-using View = std::remove_cv_t<std::remove_pointer_t<decltype(PaintSettings::edges)>>;
+using View = std::remove_cv_t<std::remove_pointer_t<decltype(StrokePaintOptions::edges)>>;
 
 inline View view_of(const Picture& p)
 {

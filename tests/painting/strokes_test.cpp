@@ -112,13 +112,13 @@ TEST(Strokes, HaveColoursWithinThoseOfThePicture)
 {
     const PaintedScene scene(test::scene(120, 90));
     const Strokes strokes = scene.strokes({});
-    const auto colors = stroke_colors(strokes, scene.guides, scene.guides);
-    const auto reverse = stroke_colors(strokes, scene.guides, scene.guides, test::backwards);
-    ASSERT_EQ(colors.size(), 1u);
-    EXPECT_EQ(colors, reverse);
-    ASSERT_EQ(colors[0].size(), strokes.strokes.size());
+    const auto colours = stroke_colours(strokes, scene.guides, scene.guides);
+    const auto reverse = stroke_colours(strokes, scene.guides, scene.guides, test::backwards);
+    ASSERT_EQ(colours.size(), 1u);
+    EXPECT_EQ(colours, reverse);
+    ASSERT_EQ(colours[0].size(), strokes.strokes.size());
     const auto [least, most] = std::minmax_element(scene.samples.begin(), scene.samples.end());
-    for (const float v : colors[0])
+    for (const float v : colours[0])
         EXPECT_TRUE(v >= *least && v <= *most) << v;
 }
 

@@ -24,7 +24,7 @@ bool draw(ProgressiveImage::Data& data, const InkOptions& options, const Paralle
     if (!check_strokes_name(options.strokes, error) || !eye_channels(data, parallel, eye, error))
         return false;
     const DirectionField field(eye.view(), parallel);
-    PenSettings settings;
+    PenOptions settings;
     settings.width = options.width;
     settings.length = options.length;
     settings.density = options.density;
@@ -38,7 +38,7 @@ bool draw(ProgressiveImage::Data& data, const InkOptions& options, const Paralle
         return false;
     paper.assign(data.hierarchy.mesh_pixels(), 1.0f);
     Canvas canvas { field.width(), field.height(), { paper.data() }, nullptr };
-    PaintSettings painting;
+    StrokePaintOptions painting;
     painting.parallel = parallel;
     const std::vector<std::vector<float>> black(1, std::vector<float>(lines.strokes.size(), 0.0f));
     paint_strokes(lines, black, Brush::named("round"), painting, canvas);

@@ -135,14 +135,14 @@ StrokeOptions stroke_options(const PaintOptions& options, const Studio& studio, 
 }
 
 /// Colours for a file: encoded for a display.
-ShownColors shown(ShownColors colors, const ProgressiveImage::Data& data)
+ShownColours shown(ShownColours colours, const ProgressiveImage::Data& data)
 {
-    colors.resize(std::min<std::size_t>(colors.size(), 3));
+    colours.resize(std::min<std::size_t>(colours.size(), 3));
     if (!data.colour.encoded())
-        for (std::vector<float>& channel : colors)
+        for (std::vector<float>& channel : colours)
             for (float& value : channel)
                 value = srgb_encoded(value);
-    return colors;
+    return colours;
 }
 
 /// Paints on studio.canvas.
@@ -161,15 +161,15 @@ bool paint_canvas(ProgressiveImage::Data& data, const PaintOptions& options, con
     if (!status)
         return false;
     const OwnedChannels picture = stored_channels(data);
-    const ShownColors colors = stroke_colors(strokes, picture.view(), guides, parallel);
-    if (!write_strokes(options.strokes, strokes, shown(colors, data), options.opacity, "", error))
+    const ShownColours colours = stroke_colours(strokes, picture.view(), guides, parallel);
+    if (!write_strokes(options.strokes, strokes, shown(colours, data), options.opacity, "", error))
         return false;
 
     std::vector<float> relief(options.impasto > 0.0f ? data.hierarchy.mesh_pixels() : 0, 0.0f);
     Canvas canvas { studio.canvas.width, studio.canvas.height, {}, relief.empty() ? nullptr : relief.data() };
     for (std::vector<float>& channel : studio.canvas.channels)
         canvas.channels.push_back(channel.data());
-    PaintSettings settings;
+    StrokePaintOptions settings;
     settings.opacity = options.opacity;
     settings.jitter_color = options.jitter_colour;
     settings.edges = &guides;
@@ -177,7 +177,7 @@ bool paint_canvas(ProgressiveImage::Data& data, const PaintOptions& options, con
     const ChannelsView ground = picture.view();
     settings.ground = studio.on_the_picture ? nullptr : &ground;
     settings.parallel = parallel;
-    paint_strokes(strokes, colors, studio.brush, settings, canvas);
+    paint_strokes(strokes, colours, studio.brush, settings, canvas);
     light_relief(canvas, options.impasto, parallel);
     for (std::vector<float>& channel : studio.canvas.channels) {
         crop_to_picture(data.hierarchy, channel);

@@ -168,14 +168,14 @@ bool check_strokes_name(const std::string& filename, std::string& error)
     return false;
 }
 
-bool write_strokes(const std::string& filename, const Strokes& strokes, const ShownColors& colors, float opacity,
+bool write_strokes(const std::string& filename, const Strokes& strokes, const ShownColours& colours, float opacity,
                    const std::string& ground, std::string& error)
 {
     if (filename.empty())
         return true;
     const bool svg = OIIO::Strutil::iends_with(filename, ".svg");
     const std::string text =
-        svg ? strokes_to_svg(strokes, colors, opacity, ground) : strokes_to_json(strokes, colors, opacity);
+        svg ? strokes_to_svg(strokes, colours, opacity, ground) : strokes_to_json(strokes, colours, opacity);
     std::string why;
     if (write_whole_file(filename, text, why))
         return true;

@@ -40,7 +40,7 @@ bool parse_colour(const std::string& text, int channels, std::vector<float>& val
 bool read_picture(const std::string& filename, OIIO::ImageBuf& picture, std::string& error);
 
 /// Writes strokes to FILE.svg or FILE.json; nothing for an empty name.
-bool write_strokes(const std::string& filename, const Strokes& strokes, const ShownColors& colors, float opacity,
+bool write_strokes(const std::string& filename, const Strokes& strokes, const ShownColours& colours, float opacity,
                    const std::string& ground, std::string& error);
 
 /// Checks the extension before any work is done.

@@ -21,17 +21,19 @@ struct Tiling {
 Tiling tile(const Mesh& mesh, const ParallelFor& parallel = {});
 
 /// How tiles are drawn.
-struct MosaicSettings {
+struct TileOptions {
     float grout = 1.5f;    ///< width of the joints in pixels, 0..64
     float bevel = 2.0f;    ///< width of the slope around a tile in pixels, 0..64
     float relief = 0.5f;   ///< how strongly the slopes are lit, 0..1
     ParallelFor parallel;  ///< the result does not depend on it
 };
 
+using MosaicSettings [[deprecated("renamed: TileOptions")]] = TileOptions;
+
 /// Draws the mosaic into `channels`, which hold the picture: one float per pixel of the tiling, row-major. Each tile gets
-/// the channel's mean over it, with lit slopes at its sides. The joints between tiles get grout_colors[c] in channel c.
+/// the channel's mean over it, with lit slopes at its sides. The joints between tiles get grout_colours[c] in channel c.
 /// `tiles` is the number of vertices of M_i.
-void lay_mosaic(const Tiling& tiling, Index tiles, const MosaicSettings& settings,
-                const std::vector<float>& grout_colors, const std::vector<float*>& channels);
+void lay_mosaic(const Tiling& tiling, Index tiles, const TileOptions& options, const std::vector<float>& grout_colours,
+                const std::vector<float*>& channels);
 
 }  // namespace pimg

@@ -17,7 +17,7 @@ struct Canvas {
 };
 
 /// How strokes are painted.
-struct PaintSettings {
+struct StrokePaintOptions {
     float opacity = 1.0f;       ///< opacity of every stroke, 0..1
     float jitter_color = 0.0f;  ///< 0..1: largest random change of a stroke's brightness, as a share of it
     /// Edges that stop the paint: up to three channels of the canvas's size, in units of one step of an 8-bit picture. A
@@ -31,9 +31,11 @@ struct PaintSettings {
     ParallelFor parallel;    ///< the result does not depend on it
 };
 
-/// Paints the strokes in their order. colors[c][i] is the value of stroke i in channel c of the canvas.
-void paint_strokes(const Strokes& strokes, const std::vector<std::vector<float>>& colors, const Brush& brush,
-                   const PaintSettings& settings, Canvas& canvas);
+using PaintSettings [[deprecated("renamed: StrokePaintOptions")]] = StrokePaintOptions;
+
+/// Paints the strokes in their order. colours[c][i] is the value of stroke i in channel c of the canvas.
+void paint_strokes(const Strokes& strokes, const std::vector<std::vector<float>>& colours, const Brush& brush,
+                   const StrokePaintOptions& options, Canvas& canvas);
 
 /// Lights the relief of the paint from the upper left. Every channel is multiplied by a number between about
 /// 1 - strength / 2 and 1 + strength / 2, for a strength of 0..1. Where paint is equally thick, nothing changes.

@@ -82,8 +82,14 @@ Status plan_strokes(const Hierarchy& hierarchy, const ChannelsView& guides, cons
 /// The colour of every stroke in each channel of `picture`: entry [c][i] is that of channel c and stroke i. It is the mean
 /// of those samples under the stroke's middle line whose `guides` are like those at its centre, so it lies within the
 /// range of the samples.
-std::vector<std::vector<float>> stroke_colors(const Strokes& strokes, const ChannelsView& picture,
-                                              const ChannelsView& guides, const ParallelFor& parallel = {});
+std::vector<std::vector<float>> stroke_colours(const Strokes& strokes, const ChannelsView& picture,
+                                               const ChannelsView& guides, const ParallelFor& parallel = {});
+
+[[deprecated("renamed: stroke_colours()")]] inline std::vector<std::vector<float>> stroke_colors(
+    const Strokes& strokes, const ChannelsView& picture, const ChannelsView& guides, const ParallelFor& parallel = {})
+{
+    return stroke_colours(strokes, picture, guides, parallel);
+}
 
 /// Mixes the bits of a number. Equal numbers give equal results. All randomness of the library comes from here.
 inline std::uint32_t scramble(std::uint32_t x)
