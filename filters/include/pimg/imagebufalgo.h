@@ -26,6 +26,9 @@
 // Channels  Colour channels are filtered: those named R, G and B, else the first three that are neither alpha nor depth
 //           (Colour::count()). The others, alpha among them, are copied.
 // Alpha     Colour is worked on as stored, that is associated (premultiplied).
+// Light     Of scene-linear pictures (pixels that are not whole numbers, in a linear space) no filter makes negative
+//           light: a sample is never below min(0, the least sample of its 3 x 3 in the source), and what would
+//           undershoot stays above a quarter of the light around.
 // NaN, Inf  Filters work on neighbouring values instead (ProgressiveImage), and put such samples back as they were,
 //           unless stated otherwise.
 // Options   Declared in options.h with their ranges and defaults. Values outside the range, and NaN or Inf, are errors.

@@ -13,6 +13,7 @@
 #include <pimg/detail/format.h>
 
 #include "frame/image_filter.h"
+#include "frame/positive_light.h"
 
 namespace pimg {
 namespace ImageBufAlgo {
@@ -151,6 +152,19 @@ bool by_strength(ProgressiveImage::Data& data, const DetailEnhanceOptions& optio
     return true;
 }
 
+/// What details of twice their size leave of the light of a scene is at least a quarter.
+void shade(const ProgressiveImage::Data& data, Channels& results)
+{
+    for (std::size_t c = 0; c < results.size(); ++c) {
+        const float* p = static_cast<const float*>(data.source.localpixels()) + data.colour.channel(int(c));
+        for (float& sample : results[c]) {
+            if (*p > 0.0f)
+                sample = shaded(sample, *p);
+            p += data.source.nchannels();
+        }
+    }
+}
+
 }  // namespace
 
 bool on_hierarchy::detail_enhance(ImageBuf& dst, const ProgressiveImage& src, const DetailEnhanceOptions& options,
@@ -168,6 +182,9 @@ bool on_hierarchy::detail_enhance(ImageBuf& dst, const ProgressiveImage& src, co
             set_error(dst, error);
             return false;
         }
+        if (is_scene_linear(data))
+            shade(data, results);
+        bound_below(data, parallel, results);
         write_channels(dst, data, roi, parallel, results);
         return true;
     });

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "frame/image_filter.h"
+#include "frame/positive_light.h"
 
 namespace pimg {
 namespace ImageBufAlgo {
@@ -22,12 +23,14 @@ Level splits_kept(const Hierarchy& hierarchy, const FeatureLowpassOptions& optio
 }
 
 /// One channel with the details of the first `kept` splits only.
-std::vector<float> lowpass(const Hierarchy& hierarchy, const Bands& bands, Level kept, int exponent)
+std::vector<float> lowpass(const ProgressiveImage::Data& data, const Bands& bands, Level kept, int exponent)
 {
+    const Hierarchy& hierarchy = data.hierarchy;
     std::vector<float> values(hierarchy.vertices());
-    sweep(hierarchy, bands, values.data(), hierarchy.levels(), [kept](Level i, Detail d) {
-        return i < kept ? d : Detail { 0.0f, 0.0f };
-    });
+    sweep(hierarchy, bands, values.data(), kept, [](Level, Detail d) { return d; });
+    if (is_scene_linear(data) && kept < hierarchy.levels())
+        shade_vertices(hierarchy, bands, kept, values.data());
+    sweep_splits(hierarchy, kept, hierarchy.levels(), values.data(), [](Level) { return Detail { 0.0f, 0.0f }; });
     return to_picture(hierarchy, values.data(), exponent, kept == hierarchy.levels() ? &bands.residual : nullptr);
 }
 
@@ -44,7 +47,7 @@ bool by_position(ProgressiveImage::Data& data, const FeatureLowpassOptions& opti
     const Level kept = splits_kept(data.hierarchy, options);
     results.resize(channels->bands.size());
     run(parallel, results.size(),
-        [&](std::size_t i) { results[i] = lowpass(data.hierarchy, channels->bands[i], kept, channels->exponent); });
+        [&](std::size_t i) { results[i] = lowpass(data, channels->bands[i], kept, channels->exponent); });
     return true;
 }
 
@@ -82,6 +85,7 @@ bool on_hierarchy::feature_lowpass(ImageBuf& dst, const ProgressiveImage& src, c
             set_error(dst, error);
             return false;
         }
+        bound_below(data, parallel, results);
         write_channels(dst, data, roi, parallel, results);
         return true;
     });

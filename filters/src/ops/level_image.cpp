@@ -9,6 +9,7 @@
 #include <pimg/rasterize.h>
 
 #include "frame/image_filter.h"
+#include "frame/positive_light.h"
 
 namespace pimg {
 
@@ -31,6 +32,8 @@ bool make_level(ProgressiveImage::Data& data, const LevelOptions& options, bool 
     picture.channels.assign(channels->bands.size(), std::vector<float>(hierarchy.mesh_pixels()));
     for (std::size_t i = 0; i < channels->bands.size(); ++i) {
         values.push_back(values_at(hierarchy, channels->bands[i], picture.level));
+        if (is_scene_linear(data))
+            shade_vertices(hierarchy, channels->bands[i], picture.level, values.back().data());
         inputs.push_back(values.back().data());
         outputs.push_back(picture.channels[i].data());
     }
@@ -41,6 +44,7 @@ bool make_level(ProgressiveImage::Data& data, const LevelOptions& options, bool 
             for (float& sample : channel)
                 sample = std::ldexp(sample, channels->exponent);
     }
+    bound_below(data, parallel, picture.channels);
     return true;
 }
 
