@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every filter of the registry in every front end: pimgtool, the plugin, C, Python where it was built, GEGL likewise.
+"""Every filter of the registry in every front end: pimgtool, the plugin, C, Python, GEGL and OpenFX where they were built.
 
-And the one grammar of option text in those that read text. $PIMG_C is libpimg; $PIMG_GEGL and $GEGL may be empty.
+And the one grammar of option text in those that read text. $PIMG_C is libpimg; $PIMG_GEGL, $GEGL, and $PIMG_OFX, the
+bundle, may be empty.
 """
 
 import ctypes
@@ -112,6 +113,14 @@ class FrontEnds(plugin_files.PluginTest):
                                 errors="replace", env={**os.environ, "GEGL_PATH": path}).stdout.split()
         for name in self.names:
             self.assertEqual("pimg:" + name.replace("_", "-") in listed, name not in LABELS, name)
+
+    @unittest.skipUnless(os.environ.get("PIMG_OFX"), "the effects for OpenFX were not built")
+    def test_ofx(self):
+        done = subprocess.run([os.environ["OFX_TEST_HOST"], os.environ["PIMG_OFX"], "list"], capture_output=True, text=True,
+                              timeout=60)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(sorted(line.split()[0] for line in done.stdout.splitlines()),
+                         sorted("org.pimg." + name for name in self.names))
 
     def test_quotes_mean_the_same_everywhere(self):
         for mark in "\"'":

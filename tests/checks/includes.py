@@ -30,10 +30,14 @@ ROOMS = {
     "filters/src": ["filters", "core"],
     "umbrella": ["filters", "painting", "codec", "core"],
     "plugin": ["filters", "codec", "core"],
-    "tools": ["plugin", "filters", "codec", "core"],
+    "tools": ["tools/shot", "plugin", "filters", "codec", "core"],
     "python": ["plugin", "filters", "codec", "core"],
     "capi": ["filters", "core"],
     "gegl": ["filters", "core"],
+    "tools/shot": ["filters", "core"],
+    "ofx/ofx_abi": ["ofx"],
+    "ofx": ["ofx/ofx_abi", "tools/shot", "filters", "core"],
+    "ofx/test_host": ["ofx/ofx_abi"],
     "examples": ["filters", "core", "capi"],
     "bench": ["filters", "painting", "codec", "core"],
     "tests": ["plugin", "tools", "filters", "painting", "codec", "core", "capi"],
@@ -51,6 +55,10 @@ HEADERS = {
 # Generated or umbrella headers, which belong to no room.
 GENERATED = {"pimg/version.h": "core"}
 
+# In place of ofx/ofx_abi_types.h, where somebody has them.
+OFFICIAL_OFX = ["ofxColour.h", "ofxCore.h", "ofxImageEffect.h", "ofxMemory.h", "ofxMessage.h", "ofxMultiThread.h",
+                "ofxParam.h", "ofxProgress.h", "ofxProperty.h", "ofxTimeLine.h"]
+
 # Everybody may use the standard library; of other libraries, these.
 FOREIGN = {
     "core": ["hwy"],
@@ -64,13 +72,15 @@ FOREIGN = {
     "python": ["OpenImageIO", "pybind11", "Python.h"],
     "capi": ["OpenImageIO"],
     "gegl": ["OpenImageIO", "gegl.h", "gegl-plugin.h", "glib.h", "glib-object.h"],
+    "ofx": ["OpenImageIO"] + OFFICIAL_OFX,
+    "ofx/test_host": ["OpenImageIO"],
     "examples": ["OpenImageIO"],
     "bench": None,
     "tests": None,
     "fuzz": None,
 }
 
-PLATFORM = {"unistd.h", "fcntl.h", "sys", "signal.h", "malloc.h"}
+PLATFORM = {"unistd.h", "fcntl.h", "sys", "signal.h", "malloc.h", "dlfcn.h"}
 C = {"assert.h", "float.h", "limits.h", "math.h", "stdarg.h", "stdbool.h", "stddef.h", "stdint.h", "stdio.h",
      "stdlib.h", "string.h"}
 INCLUDE = re.compile(r'\s*#\s*include\s*(?:<([^>]+)>|"([^"]+)")')

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render.h"
+
+#include <chrono>
+
+#include <pimg/detail/format.h>
+#include <pimg/display.h>
+#include <pimg/labels.h>
+
+#include "colour_space.h"
+
+namespace pimg_ofx {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// How often a build asks whether it is to stop, which is to take effect within 50 ms.
+constexpr std::chrono::milliseconds kBetweenQuestions(5);
+
+/// Builds of less time pass without a bar.
+constexpr std::chrono::milliseconds kUnnoticed(500);
+
+/// Follows a build on the thread of the render action: asks the host whether to stop, and shows how far it is.
+class Watch {
+public:
+    explicit Watch(Instance& instance) : m_instance(instance) { }
+    Watch(const Watch&) = delete;
+    Watch& operator=(const Watch&) = delete;
+    ~Watch()
+    {
+        if (!m_shows)
+            return;
+        m_instance.host().end_progress(m_instance.handle());
+        m_instance.end_of_progress();
+    }
+
+    bool goes_on(float done)
+    {
+        const Clock::time_point now = Clock::now();
+        if (m_stopped || now - m_asked < kBetweenQuestions)
+            return !m_stopped;
+        m_asked = now;
+        const Host& host = m_instance.host();
+        m_stopped = host.is_aborted(m_instance.handle());
+        if (!m_shows && now - m_begun > kUnnoticed && m_instance.may_show_progress()) {
+            m_shows = true;
+            host.begin_progress(m_instance.handle(), "Building the hierarchy");
+        }
+        if (m_shows && !host.progress(m_instance.handle(), double(done)))
+            m_stopped = true;
+        return !m_stopped;
+    }
+
+    bool stopped() const { return m_stopped; }
+
+private:
+    Instance& m_instance;
+    const Clock::time_point m_begun = Clock::now();
+    Clock::time_point m_asked {};
+    bool m_shows = false, m_stopped = false;
+};
+
+std::string joined(const pimg::OptionTexts& texts)
+{
+    std::string line;
+    for (const auto& [key, value] : texts)
+        line += "\n" + key + "=" + value;
+    return line;
+}
+
+/// What the host asks for.
+struct Request {
+    OfxTime time = 0.0;
+    double scale = 1.0;  ///< that of proxies
+    Placement placement;
+};
+
+Request request_of(const Properties& in)
+{
+    Request request;
+    request.time = in.real(kOfxPropTime);
+    request.scale = in.real(kOfxImageEffectPropRenderScale, 0, 1.0);
+    request.placement.window = in.rect(kOfxImageEffectPropRenderWindow);
+    return request;
+}
+
+/// Of fielded material only the lines of one field are written, if the image has room for both.
+void choose_rows(const Properties& in, const Image& output, Placement& placement)
+{
+    const std::string field = in.text(kOfxImageEffectPropFieldToRender, 0, kOfxImageFieldNone);
+    if (!output.holds_both_fields() || (field != kOfxImageFieldLower && field != kOfxImageFieldUpper))
+        return;
+    placement.row_step = 2;
+    placement.first_row = field == kOfxImageFieldUpper ? 1 : 0;
+}
+
+/// The whole result of a filter.
+class KeptResult : public Kept {
+public:
+    std::size_t memory() const override { return pixels.spec().image_bytes(); }
+    OIIO::ImageBuf pixels;
+};
+
+/// `depth` is that of the output.
+std::shared_ptr<const KeptResult> run(const pimg::BoundFilter& filter, const pimg::ProgressiveImage& image,
+                                      const OIIO::TypeDesc& depth, int threads, std::string& error)
+{
+    auto result = std::make_shared<KeptResult>();
+    const OIIO::ImageSpec& spec = image.spec();
+    if (filter.output == pimg::FilterOutput::labels)
+        result->pixels.reset(OIIO::ImageSpec(spec.width, spec.height, 1, OIIO::TypeDesc::FLOAT));
+    bool fine = filter(result->pixels, image, OIIO::ROI(), threads);
+    // Like a file of whole numbers, an image of them is for a display.
+    if (fine && filter.output == pimg::FilterOutput::light && !depth.is_floating_point()) {
+        result->pixels = pimg::srgb_encoded(result->pixels, threads);
+        fine = !result->pixels.has_error();
+    }
+    if (!fine)
+        error = result->pixels.has_error() ? result->pixels.geterror() : "the filter failed";
+    const int labels = result->pixels.spec().get_int_attribute(pimg::kLabelCount);
+    if (fine && double(labels) - 1.0 > pimg::largest_label(depth)) {
+        error = pimg::format("{} labels: expected at most {} in images of that depth", labels,
+                             pimg::largest_label(depth) + 1.0);
+        fine = false;
+    }
+    return fine ? result : nullptr;
+}
+
+/// One render action.
+class Render {
+public:
+    Render(Instance& instance, const Properties& in) : m_instance(instance), m_in(in), m_request(request_of(in)) { }
+
+    /// False with a line in `error`, or with none if it was stopped.
+    bool operator()(std::string& error)
+    {
+        const Host& host = m_instance.host();
+        const Image output(host, m_instance.output_clip(), m_request.time);
+        if (!output) {
+            error = "the host gave no output image of a known kind";
+            return false;
+        }
+        OfxRectD region {};
+        const bool has_region = m_instance.source_region(m_request.time, region);
+        const Image source(host, m_instance.source_clip(), m_request.time, has_region ? &region : nullptr);
+        if (!source || is_empty(source.picture())) {
+            error = "the clip Source gave no image of a known kind: is it connected?";
+            return false;
+        }
+        pimg::BoundFilter filter;
+        const pimg::OptionTexts options = m_instance.options(Owner::filter, m_request.time, m_request.scale);
+        if (!m_instance.effect().filter->bind(options, filter, error))
+            return false;
+        std::string key;
+        const std::shared_ptr<const KeptHierarchy> hierarchy =
+            hierarchy_of(m_instance, source, m_request.time, key, error);
+        if (hierarchy == nullptr)
+            return false;
+        const std::shared_ptr<const KeptResult> result =
+            result_of(filter, *hierarchy, source, output, key + joined(options), error);
+        shared_cache().measure(key);
+        if (result == nullptr)
+            return false;
+        write(filter, *result, source, output);
+        return true;
+    }
+
+private:
+    /// Whole, and kept, where a host asks for a part, for it will ask for the others.
+    std::shared_ptr<const KeptResult> result_of(const pimg::BoundFilter& filter, const KeptHierarchy& hierarchy,
+                                                const Image& source, const Image& output, const std::string& options,
+                                                std::string& error)
+    {
+        const OfxRectI whole = source.picture(), part = intersection(whole, m_request.placement.window);
+        const int threads = m_instance.host().threads();
+        const auto make = [&](std::string& why) {
+            return run(filter, hierarchy.image, output.depth(), threads, why);
+        };
+        if (part.x1 == whole.x1 && part.x2 == whole.x2 && part.y1 == whole.y1 && part.y2 == whole.y2)
+            return make(error);
+        const std::string key =
+            std::string(m_instance.effect().filter->name) + " " + output.depth().c_str() + " " + options;
+        return std::static_pointer_cast<const KeptResult>(shared_cache().get(
+            key, make, [&] { return m_instance.host().is_aborted(m_instance.handle()); }, error));
+    }
+
+    void write(const pimg::BoundFilter& filter, const KeptResult& result, const Image& source, const Image& output)
+    {
+        Placement placement = m_request.placement;
+        placement.picture = source.picture();
+        placement.is_labels = filter.output == pimg::FilterOutput::labels;
+        placement.has_colours = !placement.is_labels && filter.output != pimg::FilterOutput::mask;
+        choose_rows(m_in, output, placement);
+        write_result(result.pixels, source, placement, output, m_instance.host().threads());
+    }
+
+    Instance& m_instance;
+    const Properties& m_in;
+    const Request m_request;
+};
+
+}  // namespace
+
+std::shared_ptr<const KeptHierarchy> hierarchy_of(Instance& instance, const Image& image, OfxTime time,
+                                                  std::string& key, std::string& error)
+{
+    std::string space;
+    pimg::BuildOptions options;
+    const pimg::OptionTexts texts = instance.options(Owner::build, time);
+    if (!source_space(instance, time, image.depth(), space, error) || !pimg::set_options(options, texts, error))
+        return nullptr;
+    options.incolorspace = space;
+    const int threads = instance.host().threads();
+    const OfxRectI box = image.picture();
+    key = pimg::format("{:016x} {}x{}x{} {}{} {}{}", fingerprint(image, threads), box.x2 - box.x1, box.y2 - box.y1,
+                       image.channels(), image.depth().c_str(), image.is_unpremultiplied() ? " straight" : "", space,
+                       joined(texts));
+    const auto make = [&](std::string& why) -> std::shared_ptr<const Kept> {
+        Watch watch(instance);
+        auto kept = std::make_shared<KeptHierarchy>();
+        const auto progress = [&](float done) {
+            return watch.goes_on(done);
+        };
+        if (kept->image.build(picture_of(image, threads), options, threads, progress))
+            return kept;
+        why = watch.stopped() ? "" : kept->image.error();
+        return nullptr;
+    };
+    return std::static_pointer_cast<const KeptHierarchy>(shared_cache().get(
+        key, make, [&] { return instance.host().is_aborted(instance.handle()); }, error));
+}
+
+OfxStatus render(Instance& instance, const Properties& in)
+{
+    std::string error;
+    if (Render(instance, in)(error)) {
+        instance.be_content();
+        return kOfxStatOK;
+    }
+    if (error.empty())
+        return kOfxStatOK;  // the host wanted to stop, and takes no notice of the image
+    instance.complain(error);
+    return kOfxStatFailed;
+}
+
+}  // namespace pimg_ofx

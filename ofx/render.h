@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The action that makes pixels, and the hierarchies it makes them with.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <pimg/progressive_image.h>
+
+#include "cache.h"
+#include "image.h"
+#include "instance.h"
+
+namespace pimg_ofx {
+
+/// The hierarchy of a frame.
+class KeptHierarchy : public Kept {
+public:
+    std::size_t memory() const override { return image.memory(); }
+    pimg::ProgressiveImage image;
+};
+
+/// The hierarchy of the source `image`, from the cache or built now with the instance's parameters at `time`; `key` is
+/// where it is in the cache. Null with a line in `error`, or with none if the host wants to stop.
+std::shared_ptr<const KeptHierarchy> hierarchy_of(Instance& instance, const Image& image, OfxTime time,
+                                                  std::string& key, std::string& error);
+
+OfxStatus render(Instance& instance, const Properties& in);
+
+}  // namespace pimg_ofx
