@@ -15,9 +15,10 @@ packages=(
     python3-dev python3-zstandard python3-numpy python3-openimageio pybind11-dev
     python3-venv python3-matplotlib python3-markdown
     libgegl-dev gegl
+    libglfw3-dev libimgui-dev libgl-dev libgl1-mesa-dri
     libgtest-dev libbenchmark-dev libcgal-dev
     clang-format clang-tidy universal-ctags
-    xvfb xauth binutils groff-base slurm-wlm munge blender-data
+    xvfb xauth xdotool binutils groff-base slurm-wlm munge blender-data
 )
 
 usage() {

@@ -17,7 +17,8 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 # The list at the side, in the order to read.
 CONTENTS = (
-    ("Use", ("README.md", "docs/cookbook.md", "docs/reference.md", "docs/troubleshooting.md", "docs/gallery/README.md")),
+    ("Use", ("README.md", "docs/cookbook.md", "docs/reference.md", "docs/view.md", "docs/troubleshooting.md",
+             "docs/gallery/README.md")),
     ("Pipelines", ("docs/pipeline.md", "docs/python.md", "docs/plugin.md", "docs/hosts.md", "docs/ofx.md")),
     ("How it works", ("docs/smoothing.md", "docs/adaptive.md", "docs/performance.md", "docs/format.md",
                       "docs/internals.md")),

@@ -31,6 +31,8 @@ ROOMS = {
     "umbrella": ["filters", "painting", "codec", "core"],
     "plugin": ["filters", "codec", "core"],
     "tools": ["tools/shot", "plugin", "filters", "codec", "core"],
+    "view/src": ["tools", "plugin", "filters", "codec", "core"],
+    "view/window": ["view/src", "tools", "plugin", "filters", "codec", "core"],
     "python": ["plugin", "filters", "codec", "core"],
     "capi": ["filters", "core"],
     "gegl": ["filters", "core"],
@@ -40,7 +42,7 @@ ROOMS = {
     "ofx/test_host": ["ofx/ofx_abi"],
     "examples": ["filters", "core", "capi"],
     "bench": ["filters", "painting", "codec", "core"],
-    "tests": ["plugin", "tools", "filters", "painting", "codec", "core", "capi"],
+    "tests": ["plugin", "tools", "view", "filters", "painting", "codec", "core", "capi"],
 }
 
 # Where a public header without a source of the same name is: in the lowest room of its library, or here.
@@ -69,6 +71,8 @@ FOREIGN = {
     "filters/src/colour": ["OpenImageIO", "hwy", "OpenColorIO", "lcms2.h"],
     "plugin": ["OpenImageIO"],
     "tools": ["OpenImageIO", "boost"],
+    "view/src": ["OpenImageIO"],
+    "view/window": ["OpenImageIO", "OpenColorIO", "GLFW", "imgui.h", "imgui_stdlib.h", "backends"],
     "python": ["OpenImageIO", "pybind11", "Python.h"],
     "capi": ["OpenImageIO"],
     "gegl": ["OpenImageIO", "gegl.h", "gegl-plugin.h", "glib.h", "glib-object.h"],
@@ -134,7 +138,7 @@ class Rooms:
             if candidate in self.present:
                 return candidate
         # Headers of the plugin, which is a library for the tools and for Python.
-        for folder in ("plugin", "tools", "core/src", "filters/src", "codec/src", "painting/src"):
+        for folder in ("plugin", "tools", "view/src", "core/src", "filters/src", "codec/src", "painting/src"):
             if f"{folder}/{target}" in self.present:
                 return f"{folder}/{target}"
         return None

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The filters that a picture goes through, in order, each with the options that differ from their defaults.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <pimg/filter_table.h>
+
+namespace pimgview {
+
+/// One filter of the registry.
+struct StackItem {
+    const pimg::Filter* filter = nullptr;
+    pimg::OptionTexts texts;  ///< options given
+    bool on = true;           ///< false: the picture passes as it is
+
+    friend bool operator==(const StackItem& a, const StackItem& b)
+    {
+        return a.filter == b.filter && a.texts == b.texts && a.on == b.on;
+    }
+};
+
+/// What makes the result from a file, and what undo brings back.
+struct FilterStack {
+    pimg::OptionTexts build;  ///< options of BuildOptions given
+    std::vector<StackItem> items;
+
+    friend bool operator==(const FilterStack& a, const FilterStack& b)
+    {
+        return a.build == b.build && a.items == b.items;
+    }
+    friend bool operator!=(const FilterStack& a, const FilterStack& b) { return !(a == b); }
+};
+
+/// The value of an option: as given, else its default, which is empty for an option that is not set.
+std::string value_of(const pimg::OptionTexts& texts, const pimg::OptionInfo& option);
+bool is_given(const pimg::OptionTexts& texts, const pimg::OptionInfo& option);
+
+/// Gives an option a value; its default, or nothing for one that need not be set, takes it away.
+void set_value(pimg::OptionTexts& texts, const pimg::OptionInfo& option, const std::string& value);
+
+/// set_value(), and if the filter then refuses its options because another of them says the same thing, that one goes.
+void set_value(StackItem& item, const pimg::OptionInfo& option, const std::string& value);
+
+/// The options of a filter for a picture that is `factor` times smaller: lengths in pixels shrink with it, within their
+/// ranges.
+pimg::OptionTexts for_reduced(const StackItem& item, int factor);
+
+/// The smallest and largest value a slider should offer, and whether equal ways of it should be equal ratios.
+struct SliderRange {
+    double low = 0.0, high = 1.0;
+    bool logarithmic = false;
+};
+SliderRange slider_range(const pimg::OptionInfo& option);
+
+}  // namespace pimgview

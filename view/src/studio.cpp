@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "studio.h"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <new>
+#include <thread>
+
+#include <pimg/detail/format.h>
+
+namespace pimgview {
+
+namespace {
+
+using pimg::format;
+
+/// Parts of the picture that may come into view next are made, too.
+Region with_margin(const Region& visible, const OIIO::ImageSpec& spec)
+{
+    const int dx = (visible.x1 - visible.x0) / 4, dy = (visible.y1 - visible.y0) / 4;
+    return { std::max(0, visible.x0 - dx), std::max(0, visible.y0 - dy), std::min(spec.width, visible.x1 + dx),
+             std::min(spec.height, visible.y1 + dy) };
+}
+
+int built_count(const DocumentState& document)
+{
+    return int(
+        std::count_if(document.rungs.begin(), document.rungs.end(), [](const Rung& rung) { return rung.image; }));
+}
+
+bool filters(const FilterStack& stack)
+{
+    return std::any_of(stack.items.begin(), stack.items.end(), [](const StackItem& item) { return item.on; });
+}
+
+/// How many pixels of a rung a texel is the mean of, along each side.
+int reduction(double scale, int factor)
+{
+    int reduce = 1;
+    while (double(factor) * reduce * 2 <= scale)
+        reduce *= 2;
+    return reduce;
+}
+
+}  // namespace
+
+Studio::Studio(std::function<void()> changed) : m_changed(changed), m_document(std::move(changed)) { }
+
+Studio::~Studio() = default;
+
+bool Studio::is_served(const Wanted& wanted, const DocumentState& document) const
+{
+    const Wanted& before = m_request.wanted;
+    return m_request.document.version == document.version && m_rungs_built == built_count(document)
+        && m_request.document.rungs.size() == document.rungs.size() && m_request.region.contains(wanted.visible)
+        && reduction(before.scale, 1) == reduction(wanted.scale, 1) && before.stack == wanted.stack
+        && before.dragging == wanted.dragging && (before.source || !wanted.source) && (before.scopes || !wanted.scopes);
+}
+
+void Studio::want(const Wanted& asked)
+{
+    const DocumentState document = m_document.state();
+    if (!document.has_picture())
+        return;
+    const OIIO::ImageSpec& spec = document.rungs[0].pixels->spec();
+    Wanted wanted = asked;
+    if (wanted.visible.empty())
+        wanted.visible = { 0, 0, spec.width, spec.height };
+    {
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        if (is_served(wanted, document))
+            return;
+        m_request = { wanted, document, with_margin(wanted.visible, spec), m_request.serial + 1 };
+        m_rungs_built = built_count(document);
+    }
+    const Rung* finest = built_rung(document, 0.0);
+    const Rung* fitting = built_rung(document, std::max(1.0, wanted.scale));
+    // A smaller copy at first only while it is dragged, or if it is there and the whole takes longer.
+    const bool both = finest != fitting && filters(wanted.stack);
+    if (wanted.dragging || both)
+        post(m_quick, m_quick_renderer, true);
+    if (!wanted.dragging)
+        post(m_full, m_full_renderer, false);
+}
+
+void Studio::post(Worker& worker, Renderer& renderer, bool quick)
+{
+    Request request;
+    {
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        request = m_request;
+    }
+    worker.post([this, request, quick, &renderer](const std::atomic<bool>& stop) {
+        std::string error;
+        try {
+            make(request, renderer, quick, stop);
+            return;
+        } catch (const std::bad_alloc&) {
+            error = "not enough memory";
+        } catch (const std::exception& exception) {
+            error = exception.what();
+        }
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        m_error = error;
+        m_error_serial = request.serial;
+    });
+}
+
+void Studio::make(const Request& request, Renderer& renderer, bool quick, const std::atomic<bool>& stop)
+{
+    const auto begun = std::chrono::steady_clock::now();
+    const bool filtered = filters(request.wanted.stack);
+    const double scale = std::max(1.0, request.wanted.scale);
+    const Rung* rung = built_rung(request.document, quick ? scale : 0.0);
+    FilterStack stack = request.wanted.stack;
+    if (rung == nullptr || !filtered) {
+        rung = &request.document.rungs[0];
+        stack.items.clear();
+    }
+    auto shown = std::make_shared<Shown>();
+    shown->result = renderer.render(request.document, *rung, stack, stop);
+    if (!shown->result.pixels) {
+        {
+            const std::lock_guard<std::mutex> lock(m_mutex);
+            m_error = shown->result.error;
+            m_error_serial = request.serial;
+        }
+        m_changed();
+        return;
+    }
+    const int reduce = reduction(scale, rung->factor);
+    shown->frame = std::make_shared<Frame>(make_frame(shown->result, request.region, reduce));
+    shown->source.pixels = rung->pixels;
+    shown->source.factor = rung->factor;
+    shown->source.linear_light = request.document.linear_light;
+    shown->final = !quick;
+    shown->document = request.document.version;
+    shown->serial = request.serial;
+    add_source(request, *shown);
+    if (rung->image)
+        add_overlays(request, *rung, *shown);
+    shown->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    publish(shown);
+}
+
+void Studio::add_source(const Request& request, Shown& shown) const
+{
+    constexpr int kColumns = 256;  // of the waveform: about the width of its panel
+    if (request.wanted.source) {
+        const std::shared_ptr<const Shown> before = this->shown();
+        const bool same = before && before->source_frame && before->source.pixels == shown.source.pixels
+            && before->source_frame->width == shown.frame->width && before->source_frame->height == shown.frame->height
+            && before->source_frame->region.contains(shown.frame->region);
+        const int reduce = shown.frame->step / shown.result.factor;
+        shown.source_frame = same ? before->source_frame
+                                  : std::make_shared<Frame>(make_frame(shown.source, shown.frame->region, reduce));
+    }
+    if (request.wanted.scopes) {
+        shown.histogram = histogram_of(shown.result);
+        shown.source_histogram = histogram_of(shown.source);
+        shown.waveform = waveform_of(shown.result, kColumns);
+        shown.has_scopes = true;
+    }
+}
+
+void Studio::add_overlays(const Request& request, const Rung& rung, Shown& shown) const
+{
+    constexpr pimg::Index kUsual = 2000;  // as many vertices as show what pieces are in a picture of any size
+    const pimg::Index vertices = request.wanted.mesh > 0 ? request.wanted.mesh : kUsual;
+    const std::shared_ptr<const Shown> before = this->shown();
+    if (request.wanted.mesh > 0) {
+        const bool same = before && before->mesh && before->mesh->image == rung.image
+            && before->mesh->vertices == vertices && before->mesh->region.contains(request.region)
+            && !before->mesh->too_many;
+        shown.mesh = same ? before->mesh
+                          : std::make_shared<MeshLines>(mesh_lines(rung.image, vertices, rung.factor, request.region));
+    }
+    if (request.wanted.pieces) {
+        const PieceMap* known = before ? before->pieces.get() : nullptr;
+        const bool same = known != nullptr && known->image == rung.image && known->vertices == vertices;
+        shown.pieces = same ? before->pieces : piece_map(rung.image, vertices, rung.factor, known);
+    }
+}
+
+void Studio::publish(std::shared_ptr<Shown> shown)
+{
+    {
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        const bool older = m_shown
+            && (m_shown->document > shown->document || m_shown->serial > shown->serial
+                || (m_shown->serial == shown->serial && m_shown->final));
+        if (older)
+            return;
+        m_shown = std::move(shown);
+        m_error.clear();
+    }
+    m_changed();
+}
+
+std::shared_ptr<const Shown> Studio::shown() const
+{
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    return m_shown;
+}
+
+std::string Studio::error() const
+{
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    return m_error;
+}
+
+bool Studio::settled() const
+{
+    const DocumentState document = m_document.state();
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    if (!document.finished() || m_save.busy)
+        return false;
+    if (!document.has_picture())
+        return true;
+    const bool current = m_request.document.version == document.version && m_rungs_built == built_count(document);
+    const bool made = m_shown && m_shown->serial == m_request.serial && m_shown->final;
+    const bool failed = !m_error.empty() && m_error_serial == m_request.serial;
+    return current && (made || failed);
+}
+
+void Studio::save(const FilterStack& stack, const std::string& filename)
+{
+    {
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        m_save = { true, false, format("saving {} ...", filename) };
+    }
+    m_saver.post([this, stack, filename](const std::atomic<bool>& stop) {
+        const DocumentState document = m_document.state();
+        std::string summary, error;
+        bool saved = false;
+        try {
+            if (!document.has_picture() || !document.rungs[0].image)
+                error = "the picture is still being built: expected its end before saving";
+            else
+                saved = pimgview::save(document, stack, filename, stop, summary, error);
+        } catch (const std::exception& exception) {
+            error = exception.what();
+        }
+        {
+            const std::lock_guard<std::mutex> lock(m_mutex);
+            m_save = { false, !saved, saved ? format("saved {}: {}", filename, summary) : error };
+        }
+        m_changed();
+    });
+}
+
+SaveState Studio::saving() const
+{
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    return m_save;
+}
+
+bool Studio::stop()
+{
+    m_document.cancel();
+    for (Worker* worker : { &m_quick, &m_full, &m_saver })
+        worker->cancel();
+    const auto idle = [this] {
+        return m_quick.idle() && m_full.idle() && m_saver.idle() && m_document.idle();
+    };
+    for (int wait = 0; wait < 20 && !idle(); ++wait)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return idle();
+}
+
+}  // namespace pimgview

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// All of the program but its window: what is open, what is wanted of it, and the newest picture that has been made. Nothing
+// here waits: pictures are made by threads.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "document.h"
+#include "frame.h"
+#include "overlay.h"
+#include "scopes.h"
+
+namespace pimgview {
+
+/// What the window wants to show now.
+struct Wanted {
+    FilterStack stack;
+    Region visible;         ///< part of the picture in view; empty: all of it
+    double scale = 1.0;     ///< pixels of the file to a pixel of the screen
+    bool dragging = false;  ///< more changes follow: a quick picture counts more than all its pixels
+    bool source = false;    ///< the source is shown, too
+    pimg::Index mesh = 0;   ///< vertices of the mesh that is drawn; 0: none
+    bool pieces = false;    ///< dual pieces are looked up, of that level or of 2000 vertices
+    bool scopes = false;    ///< histogram and waveform are shown
+};
+
+/// A picture that has been made.
+struct Shown {
+    Rendering result, source;
+    std::shared_ptr<const Frame> frame, source_frame;  ///< of the same region and size; the second may be null
+    Histogram histogram, source_histogram;
+    Waveform waveform;
+    bool has_scopes = false;
+    std::shared_ptr<const MeshLines> mesh;
+    std::shared_ptr<const PieceMap> pieces;
+    bool final = false;    ///< of the finest rung there is
+    int document = 0;      ///< version of the document
+    int serial = 0;        ///< of the request
+    double seconds = 0.0;  ///< from the beginning of the work to this
+};
+
+/// What became of saving.
+struct SaveState {
+    bool busy = false, failed = false;
+    std::string text;  ///< "saving a.png ...", "saved a.png: 800 x 600 uint8", or the error
+};
+
+class Studio {
+public:
+    /// `changed` is called from other threads whenever there is something new.
+    explicit Studio(std::function<void()> changed);
+    ~Studio();
+
+    Document& document() { return m_document; }
+    const Document& document() const { return m_document; }
+
+    /// Tells what is wanted. Cheap if it is what was wanted before.
+    void want(const Wanted& wanted);
+
+    /// The newest picture; null if there is none yet.
+    std::shared_ptr<const Shown> shown() const;
+
+    /// One line that says why the newest request gave no picture; empty: it did.
+    std::string error() const;
+
+    /// Whether all that was wanted is shown, with all pixels, and nothing more is being done.
+    bool settled() const;
+
+    void save(const FilterStack& stack, const std::string& filename);
+    SaveState saving() const;
+
+    /// Asks every thread to stop. False if one has not done so after a fifth of a second: a filter runs to its end.
+    bool stop();
+
+private:
+    struct Request {
+        Wanted wanted;
+        DocumentState document;
+        Region region;
+        int serial = 0;
+    };
+
+    void post(Worker& worker, Renderer& renderer, bool quick);
+    void make(const Request& request, Renderer& renderer, bool quick, const std::atomic<bool>& stop);
+    void add_source(const Request& request, Shown& shown) const;
+    void add_overlays(const Request& request, const Rung& rung, Shown& shown) const;
+    void publish(std::shared_ptr<Shown> shown);
+    bool is_served(const Wanted& wanted, const DocumentState& document) const;
+
+    std::function<void()> m_changed;
+    mutable std::mutex m_mutex;
+    std::shared_ptr<const Shown> m_shown;
+    std::string m_error;
+    int m_error_serial = 0;
+    SaveState m_save;
+    Request m_request;
+    int m_rungs_built = 0;
+    Document m_document;
+    Renderer m_quick_renderer, m_full_renderer;
+    Worker m_quick, m_full, m_saver;  ///< last: they end before what they work on goes
+};
+
+}  // namespace pimgview

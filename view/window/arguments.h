@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The command line of pimgview.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "command_line.h"
+
+namespace pimgview {
+
+struct Arguments {
+    std::vector<std::string> files;
+    Script script;
+    std::string screenshot;          ///< file it is written to; empty: none
+    int width = 1280, height = 800;  ///< of the window
+    bool sized = false;              ///< --size was given
+    std::string measured;            ///< option that is dragged for --measure, such as beta; empty: none
+    int random_events = 0, seed = 1;
+    int tile = 0;  ///< largest texture; 0: what the driver allows
+    bool help = false, version = false;
+};
+
+/// False with one line in `error` for what is not understood.
+bool parse_arguments(const std::vector<std::string>& words, Arguments& arguments, std::string& error);
+
+/// What --help prints, and the keys among it.
+std::string help_text();
+
+/// A manual page for man(1).
+std::string manual_page();
+
+}  // namespace pimgview

@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "panels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/sysutil.h>
+
+#include <pimg/detail/format.h>
+
+#include "command_line.h"
+#include "file_list.h"
+#include "option_widgets.h"
+
+namespace pimgview {
+
+namespace {
+
+using pimg::format;
+using pimg::OptionInfo;
+
+/// A header whose contents are drawn; open at first if `open`.
+bool section(const char* title, bool open)
+{
+    return ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+}
+
+std::string megabytes(std::size_t bytes)
+{
+    return format("{:.0f} MB", double(bytes) / 1e6);
+}
+
+std::string stops(double luminance)
+{
+    return luminance > 0.0 ? format("{:+.2f} stops", std::log2(luminance)) : std::string("no light");
+}
+
+std::string samples_text(const PixelValue& value)
+{
+    std::string text;
+    for (std::size_t i = 0; i < std::min<std::size_t>(value.samples.size(), 4); ++i)
+        text += format("{}{:.4g}", i == 0 ? "" : " ", value.samples[i]);
+    return text;
+}
+
+/// The look as texts, so that the widgets of filters serve for it.
+pimg::OptionTexts texts_of(const LookOptions& look)
+{
+    pimg::OptionTexts texts;
+    const std::string argument = look_argument(look);
+    std::string error;
+    const std::size_t colon = argument.find(':');
+    if (colon != argument.npos)
+        pimg::split_options(std::string_view(argument).substr(colon + 1), texts, error);
+    return texts;
+}
+
+}  // namespace
+
+void Panels::draw(Workbench& bench, const ViewInfo& info, float scale)
+{
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    if (bench.look.panels) {
+        ImGui::SetNextWindowPos({ 0, 0 });
+        ImGui::SetNextWindowSize({ float(kWidth) * scale, display.y - float(kStatusHeight) * scale });
+        ImGui::Begin("Panels", nullptr,
+                     ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove);
+        ImGui::PushItemWidth(float(kWidth) * 0.5f * scale);
+        files(bench);
+        filters(bench);
+        look(bench);
+        scopes(bench);
+        presets(bench);
+        save(bench);
+        ImGui::PopItemWidth();
+        ImGui::End();
+        status(bench, info, scale);
+    }
+    if (bench.sheet)
+        sheet(bench);
+}
+
+void Panels::files(Workbench& bench)
+{
+    if (bench.opening)
+        ImGui::SetNextItemOpen(true);
+    if (!section("Files", true))
+        return;
+    if (bench.files.size() > 1) {
+        int frame = bench.index;
+        if (ImGui::SliderInt("file or frame", &frame, 0, int(bench.files.size()) - 1))
+            bench.go_to(frame);
+        ImGui::Checkbox("play", &bench.playing);
+    }
+    const float line = ImGui::GetTextLineHeightWithSpacing();
+    const float rows = float(std::min<std::size_t>(bench.files.size(), 5));
+    if (ImGui::BeginListBox("##files", { -1, line * std::max(1.0f, rows) + 6 })) {
+        for (int i = 0; i < int(bench.files.size()); ++i) {
+            ImGui::PushID(i);
+            if (ImGui::Selectable(OIIO::Filesystem::filename(bench.files[std::size_t(i)]).c_str(), i == bench.index))
+                bench.go_to(i);
+            ImGui::PopID();
+        }
+        ImGui::EndListBox();
+    }
+    if (ImGui::Button(bench.opening ? "Close the browser" : "Open ..."))
+        bench.opening = !bench.opening;
+    if (bench.opening)
+        browser(bench);
+}
+
+void Panels::browser(Workbench& bench)
+{
+    if (m_folder.empty()) {
+        m_folder = bench.settings["folder"].empty() ? "." : bench.settings["folder"];
+        m_entries = list_folder(m_folder);
+    }
+    if (ImGui::InputText("folder", &m_folder, ImGuiInputTextFlags_EnterReturnsTrue)) {
+        if (OIIO::Filesystem::is_directory(m_folder))
+            m_entries = list_folder(m_folder);
+        else
+            bench.open({ m_folder });
+    }
+    if (!ImGui::BeginListBox("##browser", { -1, 10 * ImGui::GetTextLineHeightWithSpacing() }))
+        return;
+    std::string next;
+    if (ImGui::Selectable("../"))
+        next = m_folder + "/..";
+    for (const std::string& entry : m_entries)
+        if (ImGui::Selectable(entry.c_str())) {
+            if (entry.back() == '/')
+                next = m_folder + "/" + entry.substr(0, entry.size() - 1);
+            else
+                bench.open({ m_folder + "/" + entry });
+        }
+    ImGui::EndListBox();
+    if (!next.empty()) {
+        m_folder = next;
+        m_entries = list_folder(m_folder);
+    }
+}
+
+void Panels::filters(Workbench& bench)
+{
+    if (!section("Filters", true))
+        return;
+    level_slider(bench);
+    for (std::size_t i = 0; i < bench.stack.items.size(); ++i) {
+        ImGui::PushID(int(i));
+        const bool removed = filter(bench, i);
+        ImGui::PopID();
+        if (removed) {
+            bench.stack.items.erase(bench.stack.items.begin() + std::ptrdiff_t(i));
+            break;
+        }
+    }
+    if (ImGui::BeginCombo("##add", "Add a filter ...")) {
+        for (const pimg::Filter& row : pimg::filter_table()) {
+            if (ImGui::Selectable(row.name))
+                bench.stack.items.push_back({ &row, {}, true });
+            if (ImGui::IsItemHovered())
+                ImGui::SetTooltip("%s", row.summary);
+        }
+        ImGui::EndCombo();
+    }
+    if (ImGui::TreeNode("Building the progressive image")) {
+        const OptionInfo* which = nullptr;
+        std::string value;
+        const std::vector<OptionInfo> infos = pimg::describe_options<pimg::BuildOptions>();
+        if (option_widgets(infos, bench.stack.build, {}, &which, value))
+            set_value(bench.stack.build, *which, value);
+        ImGui::TreePop();
+    }
+}
+
+bool Panels::filter(Workbench& bench, std::size_t index)
+{
+    StackItem& item = bench.stack.items[index];
+    ImGui::Checkbox("##on", &item.on);
+    ImGui::SameLine();
+    const bool removed = ImGui::SmallButton("x");
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("takes the filter out");
+    ImGui::SameLine();
+    const bool open = ImGui::TreeNodeEx(item.filter->name, ImGuiTreeNodeFlags_DefaultOpen | ImGuiTreeNodeFlags_Framed);
+    if (ImGui::IsItemHovered() && !ImGui::IsItemActive())
+        ImGui::SetTooltip("%s\ndrag it to another place in the order", item.filter->summary);
+    // Dragged beyond its own line, a filter changes places with its neighbour.
+    if (ImGui::IsItemActive() && !ImGui::IsItemHovered()) {
+        const float drag = ImGui::GetMouseDragDelta(0).y;
+        const std::size_t other = drag < 0 ? index - 1 : index + 1;
+        if (drag != 0.0f && other < bench.stack.items.size()) {
+            std::swap(bench.stack.items[index], bench.stack.items[other]);
+            ImGui::ResetMouseDragDelta();
+        }
+    }
+    if (!open)
+        return removed;
+    const OptionInfo* which = nullptr;
+    std::string value;
+    StackItem& now = bench.stack.items[index];
+    const std::vector<OptionInfo> infos = now.filter->options();
+    if (option_widgets(infos, now.texts, {}, &which, value))
+        set_value(now, *which, value);
+    ImGui::TreePop();
+    return removed;
+}
+
+/// From the base mesh to all pixels: the vertices of the filter `level`, put first if it is not there.
+void Panels::level_slider(Workbench& bench)
+{
+    const DocumentState document = bench.studio.document().state();
+    if (!document.has_picture())
+        return;
+    std::string error;
+    const pimg::Filter* level = pimg::find_filter("level", error);
+    const auto is_level = [&](const StackItem& item) {
+        return item.filter == level && item.on;
+    };
+    const auto found = std::find_if(bench.stack.items.begin(), bench.stack.items.end(), is_level);
+    const OIIO::ImageSpec& spec = document.rungs[0].pixels->spec();
+    const double low = 70.0, high = double(spec.image_pixels());  // the base mesh has 128 faces
+    double vertices = high;
+    const auto infos = level->options();
+    const auto option =
+        std::find_if(infos.begin(), infos.end(), [](const OptionInfo& i) { return i.key == "vertices"; });
+    if (level == nullptr || option == infos.end())
+        return;
+    if (found != bench.stack.items.end() && is_given(found->texts, *option))
+        vertices = std::stod(value_of(found->texts, *option));
+    if (!ImGui::SliderScalar("level (vertices)", ImGuiDataType_Double, &vertices, &low, &high, "%.0f",
+                             ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat))
+        return;
+    if (vertices >= 0.999 * high) {
+        if (found != bench.stack.items.end())
+            bench.stack.items.erase(found);
+        return;
+    }
+    if (found == bench.stack.items.end())
+        bench.stack.items.insert(bench.stack.items.begin(), { level, {}, true });
+    StackItem& item = found == bench.stack.items.end() ? bench.stack.items.front() : *found;
+    set_value(item, *option, format("{:.0f}", vertices));
+}
+
+void Panels::look(Workbench& bench)
+{
+    if (!section("Look", false))
+        return;
+    const OptionInfo* which = nullptr;
+    std::string value, error;
+    const std::vector<OptionInfo> infos = pimg::describe_options<LookOptions>();
+    if (!m_displays.displays.empty()
+        && ImGui::BeginCombo("display and view", bench.look.display.empty() ? "sRGB" : bench.look.transform.c_str())) {
+        if (ImGui::Selectable("sRGB, as pimgtool writes"))
+            bench.look.display = bench.look.transform = "";
+        for (std::size_t d = 0; d < m_displays.displays.size(); ++d)
+            for (const std::string& view : m_displays.views[d])
+                if (ImGui::Selectable((m_displays.displays[d] + ": " + view).c_str())) {
+                    bench.look.display = m_displays.displays[d];
+                    bench.look.transform = view;
+                }
+        ImGui::EndCombo();
+    }
+    if (option_widgets(infos, texts_of(bench.look), { "x", "y", "display", "transform" }, &which, value))
+        pimg::set_option(bench.look, which->key, value.empty() ? "0" : value, error);
+}
+
+void Panels::scopes(const Workbench& bench)
+{
+    const std::shared_ptr<const Shown> shown = bench.studio.shown();
+    if (!(bench.look.histogram || bench.look.waveform) || !shown || !shown->has_scopes)
+        return;
+    const float width = ImGui::GetContentRegionAvail().x;
+    if (bench.look.histogram) {
+        for (const auto& [name, histogram] :
+             { std::pair("result", &shown->histogram), std::pair("source", &shown->source_histogram) }) {
+            const float most = *std::max_element(histogram->bins.begin(), histogram->bins.end());
+            ImGui::PlotHistogram("##histogram", histogram->bins.data(), Histogram::kBins, 0, name, 0.0f, most,
+                                 { width, 70 });
+        }
+        ImGui::Text("%d to %+d stops around 1", Histogram::kLeast, Histogram::kMost);
+    }
+    if (!bench.look.waveform)
+        return;
+    const Waveform& waveform = shown->waveform;
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float cell = width / float(waveform.columns), row = 2.0f;
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    draw->AddRectFilled(corner, { corner.x + width, corner.y + row * Waveform::kRows }, IM_COL32(0, 0, 0, 255));
+    for (int y = 0; y < Waveform::kRows; ++y)
+        for (int x = 0; x < waveform.columns; ++x) {
+            const float share = waveform.shares[std::size_t(y) * std::size_t(waveform.columns) + std::size_t(x)];
+            if (share <= 0.0f)
+                continue;
+            const ImVec2 at { corner.x + float(x) * cell, corner.y + float(y) * row };
+            draw->AddRectFilled(at, { at.x + cell, at.y + row },
+                                IM_COL32(120, 255, 120, int(255.0f * std::sqrt(share))));
+        }
+    ImGui::Dummy({ width, row * Waveform::kRows });
+}
+
+void Panels::presets(Workbench& bench)
+{
+    if (!section("Presets", false))
+        return;
+    for (const std::string& name : preset_names())
+        if (ImGui::Selectable(name.c_str()))
+            bench.apply(read_preset(name));
+    ImGui::InputTextWithHint("##name", "name", &m_preset);
+    ImGui::SameLine();
+    if (ImGui::Button("Keep as a preset"))
+        bench.save_preset(m_preset);
+    if (ImGui::InputTextWithHint("##paste", "paste a command line, Enter", &m_pasted,
+                                 ImGuiInputTextFlags_EnterReturnsTrue))
+        bench.apply(m_pasted);
+}
+
+void Panels::save(Workbench& bench)
+{
+    if (bench.saving)
+        ImGui::SetNextItemOpen(true);
+    bench.saving = false;
+    if (!section("Save", false))
+        return;
+    ImGui::InputTextWithHint("##file", "out.png, out.exr, out.pimg ...", &bench.save_name);
+    ImGui::SameLine();
+    if (ImGui::Button("Save") && !bench.save_name.empty() && !bench.studio.saving().busy)
+        bench.studio.save(bench.stack, bench.save_name);
+    ImGui::TextWrapped("Strokes as SVG: the option strokes of paint and ink.");
+}
+
+void Panels::status(Workbench& bench, const ViewInfo& info, float scale)
+{
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({ 0, display.y - float(kStatusHeight) * scale });
+    ImGui::SetNextWindowSize({ display.x, float(kStatusHeight) * scale });
+    ImGui::Begin("Status", nullptr,
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove
+                     | ImGuiWindowFlags_NoScrollbar);
+    const DocumentState document = bench.studio.document().state();
+    std::string line = bench.line();
+    if (bench.copied || ImGui::SmallButton("Copy")) {
+        ImGui::SetClipboardText(line.c_str());
+        bench.message = "copied the command line";
+        bench.copied = false;
+    }
+    ImGui::SameLine();
+    ImGui::TextUnformatted(line.c_str());
+    std::string problem = !document.error.empty() ? document.error : bench.studio.error();
+    const SaveState saving = bench.studio.saving();
+    if (problem.empty() && saving.failed)
+        problem = saving.text;
+    if (!document.activity.empty()) {
+        ImGui::ProgressBar(document.progress, { 160 * scale, 0 }, document.activity.c_str());
+        ImGui::SameLine();
+    }
+    if (!problem.empty())
+        ImGui::TextColored({ 1.0f, 0.35f, 0.3f, 1.0f }, "%s", problem.c_str());
+    else {
+        std::string text = !bench.message.empty() ? bench.message + "   " : "";
+        text += saving.text.empty() ? "" : saving.text + "   ";
+        if (info.has_pixel)
+            text +=
+                format("({}, {})  source {} = {}   result {} = {}, codes {} {} {}   ", info.x, info.y,
+                       samples_text(info.source), stops(info.source.luminance), samples_text(info.result),
+                       stops(info.result.luminance), info.result.codes[0], info.result.codes[1], info.result.codes[2]);
+        text += format("{:.0f} %   {}", 100.0 * info.zoom, megabytes(document.memory() + info.texture_memory));
+        ImGui::TextUnformatted(text.c_str());
+    }
+    ImGui::End();
+}
+
+void Panels::sheet(Workbench& bench)
+{
+    ImGui::SetNextWindowPos({ ImGui::GetIO().DisplaySize.x / 2, ImGui::GetIO().DisplaySize.y / 2 }, ImGuiCond_Always,
+                            { 0.5f, 0.5f });
+    ImGui::Begin("Keys", &bench.sheet, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize);
+    for (const Key& key : key_table()) {
+        ImGui::TextUnformatted(key.name);
+        ImGui::SameLine(120);
+        ImGui::TextUnformatted(key.help);
+    }
+    ImGui::End();
+}
+
+}  // namespace pimgview

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The panels beside the picture.
+#pragma once
+
+#include "colour_shader.h"
+#include "workbench.h"
+
+namespace pimgview {
+
+/// What the panels show of the view.
+struct ViewInfo {
+    bool has_pixel = false;
+    int x = 0, y = 0;  ///< under the pointer
+    PixelValue source, result;
+    double zoom = 1.0;
+    std::size_t texture_memory = 0;
+};
+
+class Panels {
+public:
+    static constexpr int kWidth = 360, kStatusHeight = 54;  ///< in points; chosen by eye
+
+    /// Draws all that is to be seen; `scale` is that of the screen.
+    void draw(Workbench& bench, const ViewInfo& info, float scale);
+
+private:
+    void files(Workbench& bench);
+    void browser(Workbench& bench);
+    void filters(Workbench& bench);
+    bool filter(Workbench& bench, std::size_t index);
+    void level_slider(Workbench& bench);
+    void look(Workbench& bench);
+    void scopes(const Workbench& bench);
+    void presets(Workbench& bench);
+    void save(Workbench& bench);
+    void status(Workbench& bench, const ViewInfo& info, float scale);
+    void sheet(Workbench& bench);
+
+    std::string m_folder, m_preset, m_pasted;
+    std::vector<std::string> m_entries;
+    const DisplayList m_displays = display_list();
+};
+
+}  // namespace pimgview

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "window.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+
+#include <pimg/detail/format.h>
+
+#include "output.h"
+
+namespace pimgview {
+
+namespace {
+
+using pimg::format;
+
+std::string glfw_error()
+{
+    const char* words = nullptr;
+    glfwGetError(&words);
+    return words != nullptr ? words : "no reason given";
+}
+
+/// Whether textures of 32-bit floats can be made and filtered.
+bool has_float_textures()
+{
+    const Texture texture;
+    glBindTexture(GL_TEXTURE_2D, texture.name());
+    while (glGetError() != GL_NO_ERROR) { }
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, 16, 16, 0, GL_RGB, GL_FLOAT, nullptr);
+    GLint bits = 0;
+    glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_RED_SIZE, &bits);
+    return glGetError() == GL_NO_ERROR && bits == 32;
+}
+
+}  // namespace
+
+Window::Window(const Arguments& arguments) : m_arguments(arguments), m_random(std::uint32_t(arguments.seed)) { }
+
+Window::~Window()
+{
+    m_bench.reset();
+    m_view.reset();
+    if (m_imgui) {
+        ImGui_ImplOpenGL3_Shutdown();
+        ImGui_ImplGlfw_Shutdown();
+        ImGui::DestroyContext();
+    }
+    if (m_window != nullptr)
+        glfwDestroyWindow(m_window);
+    if (m_glfw)
+        glfwTerminate();
+}
+
+bool Window::open(std::string& error)
+{
+    m_opened = 0.0;
+    if (!glfwInit()) {
+        error = format("no display: {}", glfw_error());
+        return false;
+    }
+    m_glfw = true;
+    glfwSetTime(0.0);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 2);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, m_arguments.sized ? GLFW_FALSE : GLFW_TRUE);
+    m_window = glfwCreateWindow(m_arguments.width, m_arguments.height, "pimgview", nullptr, nullptr);
+    if (m_window == nullptr) {
+        error = format("no window with OpenGL 3.2: {}", glfw_error());
+        return false;
+    }
+    glfwMakeContextCurrent(m_window);
+    const bool timed =
+        !m_arguments.measured.empty() || !m_arguments.screenshot.empty() || m_arguments.random_events > 0;
+    glfwSwapInterval(timed ? 0 : 1);
+    if (!has_float_textures()) {
+        error = format("the graphics driver has no textures of 32-bit floats: {}",
+                       reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
+        return false;
+    }
+    glfwSetWindowUserPointer(m_window, this);
+    glfwSetDropCallback(m_window, on_drop);
+    ImGui::CreateContext();
+    m_imgui = true;
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    float horizontal = 1.0f;
+    glfwGetWindowContentScale(m_window, &horizontal, &m_scale);
+    ImFontConfig font;
+    font.SizePixels = std::round(13.0f * m_scale);  // the built-in font is drawn for 13 pixels
+    io.Fonts->AddFontDefault(&font);
+    ImGui::GetStyle().ScaleAllSizes(m_scale);
+    ImGui_ImplGlfw_InitForOpenGL(m_window, true);
+    ImGui_ImplOpenGL3_Init("#version 150");
+    m_bench = std::make_unique<Workbench>(m_arguments, [] { glfwPostEmptyEvent(); });
+    m_view = std::make_unique<PictureView>(m_arguments.tile);
+    return true;
+}
+
+void Window::on_drop(GLFWwindow* window, int count, const char** names)
+{
+    auto* self = static_cast<Window*>(glfwGetWindowUserPointer(window));
+    self->m_dropped.assign(names, names + count);
+}
+
+Viewport Window::area() const
+{
+    int width = 1, height = 1;
+    glfwGetFramebufferSize(m_window, &width, &height);
+    Viewport area;
+    const bool panels = m_bench->look.panels;
+    area.x = panels ? std::min(width - 1, int(Panels::kWidth * m_scale)) : 0;
+    area.width = std::max(1, width - area.x);
+    area.height = std::max(1, panels ? height - int(Panels::kStatusHeight * m_scale) : height);
+    const DocumentState document = m_bench->studio.document().state();
+    if (document.has_picture()) {
+        area.picture_width = document.rungs[0].pixels->spec().width;
+        area.picture_height = document.rungs[0].pixels->spec().height;
+    }
+    return area;
+}
+
+void Window::keys()
+{
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.WantTextInput)
+        return;
+    for (const Key& key : key_table())
+        if (ImGui::IsKeyPressed(key.code) && key.control == io.KeyCtrl && key.shift == io.KeyShift) {
+            m_bench->act(key.action);
+            m_view->act(*m_bench, key.action);
+        }
+}
+
+void Window::drop_in()
+{
+    if (m_dropped.empty())
+        return;
+    m_bench->open(m_dropped);
+    m_dropped.clear();
+}
+
+void Window::draw_frame()
+{
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    if (m_arguments.random_events > 0)
+        inject_random_events();
+    ImGui::NewFrame();
+    drop_in();
+    keys();
+    if (m_bench->look.light)
+        ImGui::StyleColorsLight();
+    else
+        ImGui::StyleColorsDark();
+    int width = 1, height = 1, points = 1, rows = 1;
+    glfwGetFramebufferSize(m_window, &width, &height);
+    glfwGetWindowSize(m_window, &points, &rows);
+    const Viewport view = area();
+    m_view->interact(*m_bench, view, double(width) / std::max(1, points));
+    m_view->draw_overlays(*m_bench, double(width) / std::max(1, points));
+    m_panels.draw(*m_bench, m_view->info(), m_scale);
+    const bool held = ImGui::IsAnyItemActive() || m_drag_begun > 0.0;
+    m_bench->update(view.visible(m_bench->look), 1.0 / view.zoom(m_bench->look), held);
+    if (!held && !m_view->dragging())
+        m_bench->record();
+    ImGui::Render();
+    glViewport(0, 0, width, height);
+    const float grey = m_bench->look.light ? 0.6f : 0.1f;
+    glClearColor(grey, grey, grey, 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
+    m_view->draw(*m_bench, width, height);
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+bool Window::finished(std::string& error, bool& failed)
+{
+    const DocumentState document = m_bench->studio.document().state();
+    if (m_first_picture == 0.0 && m_view->pictures() > 0)
+        m_first_picture = glfwGetTime();
+    if (m_first_sliders == 0.0 && document.first_build_seconds > 0.0)
+        m_first_sliders = glfwGetTime();
+    const bool settled = m_bench->studio.settled() && m_view->is_current(*m_bench);
+    m_settled_frames = settled ? m_settled_frames + 1 : 0;
+    constexpr int kFramesToSettle = 3;  // panels find their sizes in the second frame
+    if (m_settled_frames < kFramesToSettle)
+        return m_arguments.random_events > 0 && m_events >= m_arguments.random_events;
+    if (m_whole == 0.0)
+        m_whole = glfwGetTime();
+    if (!m_arguments.measured.empty())
+        return measure();
+    if (m_arguments.random_events > 0)
+        return m_events >= m_arguments.random_events;
+    if (!m_bench->save_name.empty() && !m_arguments.script.output.empty()) {
+        m_arguments.script.output.clear();
+        m_bench->studio.save(m_bench->stack, m_bench->save_name);
+        m_settled_frames = 0;
+        return false;
+    }
+    if (m_arguments.screenshot.empty())
+        return false;
+    const SaveState saving = m_bench->studio.saving();
+    for (const std::string& problem : { document.error, m_bench->studio.error(), saving.failed ? saving.text : "" })
+        if (!problem.empty())
+            error = problem;
+    failed = !write_screenshot(error) || !error.empty();
+    return true;
+}
+
+bool Window::run(std::string& error)
+{
+    bool failed = false;
+    while (!glfwWindowShouldClose(m_window) && !m_bench->quit) {
+        const bool busy = m_drag_begun > 0.0 || m_arguments.random_events > 0 || m_settled_frames > 0;
+        const bool waits = m_settled_frames > 2 && m_arguments.screenshot.empty();
+        if (busy && !waits)
+            glfwPollEvents();
+        else
+            glfwWaitEventsTimeout(m_bench->playing ? 0.01 : 0.1);
+        draw_frame();
+        if (finished(error, failed))
+            break;
+        glfwSwapBuffers(m_window);
+    }
+    glfwHideWindow(m_window);
+    const bool ends = m_arguments.screenshot.empty() && m_arguments.measured.empty() && m_arguments.random_events == 0;
+    if (ends)
+        m_bench->remember();
+    if (!m_bench->studio.stop()) {
+        // A filter or a reader that runs to its end must not keep the user waiting; nothing of it would be kept.
+        std::fflush(nullptr);
+        std::_Exit(failed ? 1 : 0);
+    }
+    return !failed;
+}
+
+bool Window::write_screenshot(std::string& error) const
+{
+    int width = 1, height = 1;
+    glfwGetFramebufferSize(m_window, &width, &height);
+    std::vector<unsigned char> pixels(std::size_t(width) * std::size_t(height) * 3);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
+    OIIO::ImageBuf image(OIIO::ImageSpec(width, height, 3, OIIO::TypeUInt8));
+    image.specmod().attribute("oiio:ColorSpace", "sRGB");
+    for (int y = 0; y < height; ++y)
+        image.set_pixels(OIIO::ROI(0, width, y, y + 1), OIIO::TypeUInt8,
+                         &pixels[std::size_t(height - 1 - y) * std::size_t(width) * 3]);
+    std::string summary, problem;
+    const pimgtool::OutputPicture out { image, { OIIO::TypeUInt8, {} }, false, false };
+    if (pimgtool::can_write(m_arguments.screenshot, problem)
+        && pimgtool::write_picture(
+            out, m_arguments.screenshot, [](float) {}, summary, problem))
+        return true;
+    error = format("cannot write \"{}\": {}", m_arguments.screenshot, problem);
+    return false;
+}
+
+bool Window::measure()
+{
+    constexpr double kSeconds = 5.0;
+    const double now = glfwGetTime();
+    for (StackItem& item : m_bench->stack.items)
+        for (const pimg::OptionInfo& option : item.filter->options()) {
+            if (option.key != m_arguments.measured)
+                continue;
+            const SliderRange range = slider_range(option);
+            const double share = 0.5 + 0.45 * std::sin(now);
+            const double value = range.low + (std::min(range.high, 100.0) - range.low) * share;
+            set_value(item, option, format("{:.4f}", value));
+        }
+    if (m_drag_begun == 0.0) {
+        m_drag_begun = now;
+        m_drag_last = m_view->pictures();
+        return false;
+    }
+    if (m_view->pictures() != m_drag_last && m_view->drawn() != nullptr) {
+        m_drag_pictures += m_view->pictures() - m_drag_last;
+        m_drag_last = m_view->pictures();
+        m_filter_seconds += m_view->drawn()->result.seconds;
+        m_make_seconds += m_view->drawn()->seconds;
+    }
+    if (now - m_drag_begun < kSeconds)
+        return false;
+    print_measurement();
+    return true;
+}
+
+void Window::print_measurement() const
+{
+    const double seconds = glfwGetTime() - m_drag_begun;
+    const DocumentState document = m_bench->studio.document().state();
+    const double each = m_drag_pictures > 0 ? 1000.0 / m_drag_pictures : 0.0;
+    std::printf("%s\n", reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
+    std::printf("first picture %.2f s, sliders that answer %.2f s, all built %.2f s after the start\n", m_first_picture,
+                m_first_sliders, m_whole);
+    std::printf(
+        "dragging %s: %.1f pictures per second; %.1f ms each, of which filters %.1f ms, preparing textures %.1f ms\n",
+        m_arguments.measured.c_str(), m_drag_pictures / seconds, seconds * each, m_filter_seconds * each,
+        (m_make_seconds - m_filter_seconds) * each);
+    std::printf("memory %.0f MB\n", double(document.memory() + m_view->info().texture_memory) / 1e6);
+}
+
+/// Keys but those that end the program or write files, clicks, drags and the wheel, anywhere.
+void Window::inject_random_events()
+{
+    ImGuiIO& io = ImGui::GetIO();
+    ++m_events;
+    const auto random = [this](int count) {
+        return int(m_random() % std::uint32_t(count));
+    };
+    std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false);
+    io.KeyCtrl = io.KeyShift = false;
+    switch (random(6)) {
+    case 0: {
+        const Key& key = key_table()[std::size_t(random(int(key_table().size())))];
+        if (key.action != Action::quit && key.action != Action::save && key.action != Action::copy) {
+            io.KeysDown[key.code] = true;
+            io.KeyCtrl = key.control;
+            io.KeyShift = key.shift;
+        }
+        break;
+    }
+    case 1:
+        io.MouseWheel = float(random(5) - 2);
+        break;
+    case 2:
+        m_mouse_down = !m_mouse_down;
+        break;
+    case 3:
+        io.AddInputCharacter(unsigned('0' + random(10)));
+        break;
+    default:
+        m_mouse_x = float(random(int(io.DisplaySize.x)));
+        m_mouse_y = float(random(int(io.DisplaySize.y)));
+        break;
+    }
+    io.MousePos = { m_mouse_x, m_mouse_y };
+    io.MouseDown[0] = m_mouse_down;
+}
+
+}  // namespace pimgview

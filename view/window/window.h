@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The window, and the loop that draws it.
+#pragma once
+
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "picture_view.h"
+
+struct GLFWwindow;
+
+namespace pimgview {
+
+class Window {
+public:
+    explicit Window(const Arguments& arguments);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    /// Opens the window. False with one line in `error` that says what is missing.
+    bool open(std::string& error);
+
+    /// Draws until the user quits, or the screenshot, the measurement or the random events are done.
+    bool run(std::string& error);
+
+private:
+    void draw_frame();
+    void keys();
+    void drop_in();
+    void inject_random_events();
+    bool measure();
+    void print_measurement() const;
+    bool write_screenshot(std::string& error) const;
+    bool finished(std::string& error, bool& failed);
+    Viewport area() const;
+
+    static void on_drop(GLFWwindow* window, int count, const char** names);
+
+    Arguments m_arguments;
+    GLFWwindow* m_window = nullptr;
+    bool m_glfw = false, m_imgui = false;
+    std::unique_ptr<Workbench> m_bench;
+    std::unique_ptr<PictureView> m_view;
+    Panels m_panels;
+    float m_scale = 1.0f;  ///< of the screen
+    std::string m_layout_file;
+    std::vector<std::string> m_dropped;
+
+    int m_settled_frames = 0;
+    double m_opened = 0.0, m_first_picture = 0.0, m_first_sliders = 0.0, m_whole = 0.0;
+
+    std::mt19937 m_random;
+    int m_events = 0;
+    float m_mouse_x = 0.0f, m_mouse_y = 0.0f;
+    bool m_mouse_down = false;
+
+    double m_drag_begun = 0.0, m_filter_seconds = 0.0, m_make_seconds = 0.0;
+    int m_drag_pictures = 0, m_drag_last = 0;
+};
+
+}  // namespace pimgview
