@@ -82,7 +82,7 @@ private:
     bool is_whole();
     bool decode(const Request& request);
     Status decode_tile(const Request& request, std::uint32_t column, std::uint32_t row);
-    std::vector<StridedChannel> planes(const OIIO::ImageSpec& spec, const Request& request) const;
+    std::vector<StridedChannel> channels_of(const OIIO::ImageSpec& spec, const Request& request) const;
     std::shared_ptr<const Tile> tile(std::uint32_t column, std::uint32_t row, Status& status);
 
     std::shared_ptr<const OIIO::ImageBuf> picture();

@@ -60,14 +60,14 @@ bool PimgInput::decode(const Request& request)
     return failure.ok() || fail(pimg::format("\"{}\": {}", m_name, failure.error()));
 }
 
-/// One plane per channel over the request's memory; those outside its range are not wanted.
-std::vector<StridedChannel> PimgInput::planes(const ImageSpec& spec, const Request& request) const
+/// The channels over the request's memory; those outside its range are not wanted.
+std::vector<StridedChannel> PimgInput::channels_of(const ImageSpec& spec, const Request& request) const
 {
-    std::vector<StridedChannel> planes(std::size_t(spec.nchannels));
+    std::vector<StridedChannel> channels(std::size_t(spec.nchannels));
     for (int c = request.c0; c < request.c1; ++c)
-        planes[std::size_t(c)] = { request.to + spec.pixel_bytes(request.c0, c, true), request.x_stride,
-                                   request.y_stride };
-    return planes;
+        channels[std::size_t(c)] = { request.to + spec.pixel_bytes(request.c0, c, true), request.x_stride,
+                                     request.y_stride };
+    return channels;
 }
 
 /// The part of a request that lies in one tile of the file.
@@ -81,7 +81,7 @@ Status PimgInput::decode_tile(const Request& request, std::uint32_t column, std:
     part.y0 = std::max(request.y0, top), part.y1 = std::min(request.y1, bottom);
     part.to += (part.y0 - request.y0) * request.y_stride + (part.x0 - request.x0) * request.x_stride;
     if (part.x0 == left && part.x1 == right && part.y0 == top && part.y1 == bottom)
-        return m_decoder.read_tile(column, row, planes(m_stored, part));
+        return m_decoder.read_tile(column, row, channels_of(m_stored, part));
 
     Status status;
     const std::shared_ptr<const Tile> whole = tile(column, row, status);
@@ -124,7 +124,7 @@ std::shared_ptr<const Tile> PimgInput::tile(std::uint32_t column, std::uint32_t 
     const auto pixel = stride_t(m_stored.pixel_bytes(true));
     tile->pixels.resize(std::size_t(pixel) * std::size_t(width) * std::size_t(height));
     const Request all { 0, width, 0, height, 0, m_stored.nchannels, tile->pixels.data(), pixel, pixel * width };
-    status = m_decoder.read_tile(column, row, planes(m_stored, all));
+    status = m_decoder.read_tile(column, row, channels_of(m_stored, all));
     if (!status)
         return nullptr;
     std::lock_guard<std::mutex> lock(m_tiles_mutex);
@@ -255,7 +255,7 @@ bool PimgInput::get_thumbnail(ImageBuf& thumbnail, int subimage)
         };
         const double vertices = std::max(1.0, double(m_decoder.vertices())), enough = double(spec.image_pixels());
         const Status status = m_decoder.read_preview(std::uint32_t(spec.width), std::uint32_t(spec.height),
-                                                     planes(m_stored, all), std::min(1.0, enough / vertices));
+                                                     channels_of(m_stored, all), std::min(1.0, enough / vertices));
         if (!status)
             return fail(pimg::format("\"{}\": {}", m_name, status.error()));
         thumbnail.reset(spec);

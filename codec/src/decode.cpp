@@ -48,9 +48,9 @@ Decoder& Decoder::operator=(Decoder&&) noexcept = default;
 
 namespace {
 
-std::vector<StridedChannel> shifted(const std::vector<StridedChannel>& planes, std::uint32_t x, std::uint32_t y)
+std::vector<StridedChannel> shifted(const std::vector<StridedChannel>& channels, std::uint32_t x, std::uint32_t y)
 {
-    std::vector<StridedChannel> moved = planes;
+    std::vector<StridedChannel> moved = channels;
     for (StridedChannel& p : moved)
         if (p.data)
             p.data =
@@ -58,7 +58,7 @@ std::vector<StridedChannel> shifted(const std::vector<StridedChannel>& planes, s
     return moved;
 }
 
-const char* const kPlaneCount = "pimg: expected one entry of samples per channel";
+const char* const kChannelCount = "pimg: expected one entry of samples per channel";
 
 }  // namespace
 
@@ -115,7 +115,7 @@ Status Decoder::read(const std::vector<StridedChannel>& samples, ReadInfo* info,
     return guarded([&]() -> Status {
         const File& f = *m_file;
         if (samples.size() != f.desc.channels.size())
-            return Status::failure(kPlaneCount);
+            return Status::failure(kChannelCount);
         Status status = f.index();
         for (const Chunk& chunk : f.collapses)
             if (status)
@@ -164,7 +164,7 @@ Status Decoder::read_tile(std::uint32_t column, std::uint32_t row, const std::ve
 {
     return guarded([&]() -> Status {
         if (samples.size() != m_file->desc.channels.size())
-            return Status::failure(kPlaneCount);
+            return Status::failure(kChannelCount);
         if (column >= m_file->columns() || row >= m_file->rows())
             return Status::failure("pimg: there is no such tile");
         const Status status = m_file->index();
@@ -198,7 +198,7 @@ Status Decoder::read_preview(std::uint32_t width, std::uint32_t height, const st
             const std::size_t next = first + group.size();
             const bool wanted =
                 std::any_of(samples.begin() + std::ptrdiff_t(first), samples.begin() + std::ptrdiff_t(next),
-                            [](const StridedChannel& plane) { return plane.data != nullptr; });
+                            [](const StridedChannel& channel) { return channel.data != nullptr; });
             for (std::size_t k = 0; wanted && k < group.size(); ++k) {
                 group[k].resize(std::size_t(width) * height);
                 fill(layer.mesh, triangles, { numbers.data(), numbers.data() + numbers.size() },
@@ -224,7 +224,7 @@ Status Decoder::read_hierarchy(const std::vector<ConstStridedChannel>& samples,
     return guarded([&]() -> Status {
         const File& f = *m_file;
         if (samples.size() != f.desc.channels.size())
-            return Status::failure(kPlaneCount);
+            return Status::failure(kChannelCount);
         Status status = f.index();
         if (status && (f.collapses.empty() || !f.done))
             status = Status::failure("pimg: there is no hierarchy in this file");

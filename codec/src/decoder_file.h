@@ -78,13 +78,13 @@ struct Decoder::File {
     Status check_effort(const Mesh& mesh, const std::vector<Triangle>& triangles, std::uint32_t width,
                         std::uint32_t height) const;
     Status shared_layer(std::shared_ptr<const LayerState>& state) const;
-    Status tile(std::uint32_t column, std::uint32_t row, const std::vector<StridedChannel>& planes) const;
+    Status tile(std::uint32_t column, std::uint32_t row, const std::vector<StridedChannel>& channels) const;
     Status show(const SamplePoints& points, std::uint32_t column, std::uint32_t row, std::size_t c,
                 std::vector<std::int32_t>& samples) const;
     Status read_group(ByteReader& in, const SamplePoints& points, std::uint32_t column, std::uint32_t row,
                       std::size_t first, TileGroup& group) const;
     void finish(std::vector<std::vector<std::int32_t>>& group, std::size_t first, std::uint32_t width,
-                std::uint32_t height, bool exact, const std::vector<StridedChannel>& planes) const;
+                std::uint32_t height, bool exact, const std::vector<StridedChannel>& channels) const;
     std::size_t group_size(std::size_t first) const
     {
         return std::min<std::size_t>(kTransformChannels, desc.channels.size() - first);

@@ -34,24 +34,24 @@ Status Decoder::File::read_group(ByteReader& in, const SamplePoints& points, std
     group.mesh.resize(count);
     group.sizes.resize(count);
     for (std::size_t k = 0; k < count; ++k) {
-        TilePlaneReader reader;
-        TilePlane plane;
-        plane.width = int(points.xs.size());
-        plane.height = int(points.ys.size());
-        if (!reader.open(in, plane.pixels()))
+        TileChannelReader reader;
+        TileChannel channel;
+        channel.width = int(points.xs.size());
+        channel.height = int(points.ys.size());
+        if (!reader.open(in, channel.pixels()))
             return bad();
         if (reader.uses_gouraud()) {
             const Status status = show(points, column, row, first + k, group.mesh[k]);
             if (!status)
                 return status;
-            plane.gouraud = group.mesh[k].data();
+            channel.gouraud = group.mesh[k].data();
         }
-        group.values[k].resize(plane.pixels());
-        group.sizes[k].resize(plane.pixels());
-        plane.values = group.values[k].data();
-        plane.sizes = group.sizes[k].data();
-        plane.guide = k > 0 ? group.sizes[k - 1].data() : first > 0 ? group.before.data() : nullptr;
-        if (!reader.read(plane))
+        group.values[k].resize(channel.pixels());
+        group.sizes[k].resize(channel.pixels());
+        channel.values = group.values[k].data();
+        channel.sizes = group.sizes[k].data();
+        channel.guide = k > 0 ? group.sizes[k - 1].data() : first > 0 ? group.before.data() : nullptr;
+        if (!reader.read(channel))
             return bad();
     }
     group.before.swap(group.sizes[count - 1]);
@@ -60,16 +60,16 @@ Status Decoder::File::read_group(ByteReader& in, const SamplePoints& points, std
 
 /// Undoes the colour transform of channels first ... and hands out their samples.
 void Decoder::File::finish(std::vector<std::vector<std::int32_t>>& group, std::size_t first, std::uint32_t width,
-                           std::uint32_t height, bool exact, const std::vector<StridedChannel>& planes) const
+                           std::uint32_t height, bool exact, const std::vector<StridedChannel>& channels) const
 {
     if (first == 0)
         inverse(Transform(head.transform), group);
     for (std::size_t k = 0; k < group.size(); ++k)
-        if (planes[first + k].data)
-            scatter(desc.channels[first + k].type, group[k], width, height, !exact, planes[first + k], 0, 0);
+        if (channels[first + k].data)
+            scatter(desc.channels[first + k].type, group[k], width, height, !exact, channels[first + k], 0, 0);
 }
 
-Status Decoder::File::tile(std::uint32_t column, std::uint32_t row, const std::vector<StridedChannel>& planes) const
+Status Decoder::File::tile(std::uint32_t column, std::uint32_t row, const std::vector<StridedChannel>& channels) const
 {
     const std::uint32_t x = column * head.tile, y = row * head.tile;
     const std::uint32_t width = std::min<std::uint32_t>(head.tile, desc.data.width - x);
@@ -99,7 +99,7 @@ Status Decoder::File::tile(std::uint32_t column, std::uint32_t row, const std::v
             status = show(points, column, row, first + k, group.values[k]);
         if (!status)
             return status;
-        finish(group.values, first, width, height, exact, planes);
+        finish(group.values, first, width, height, exact, channels);
     }
     return exact && !in.finished() ? Status::failure("pimg: tile " + std::to_string(number) + " is damaged") : Status();
 }

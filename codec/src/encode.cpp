@@ -93,9 +93,9 @@ Transform Encoder::choose_transform() const
             forward(t, strip);
             std::vector<std::uint16_t> sizes(count), before(count);
             for (std::size_t c = 0; c < 3; ++c) {
-                const TilePlane plane { int(m_integers.width),           int(height), strip[c].data(), nullptr,
-                                        c > 0 ? before.data() : nullptr, sizes.data() };
-                bits += estimate_tile_plane(plane, {});
+                const TileChannel channel { int(m_integers.width),           int(height), strip[c].data(), nullptr,
+                                            c > 0 ? before.data() : nullptr, sizes.data() };
+                bits += estimate_tile_channel(channel, {});
                 sizes.swap(before);
             }
         }
@@ -181,18 +181,18 @@ Status Encoder::make_mesh_layer(MeshLayerChunks& chunks)
 }
 
 /// The best predictor by estimate. One that needs the mesh layer must earn what showing it costs the reader.
-TilePredictor choose_predictor(const TilePlane& plane, int effort)
+TilePredictor choose_predictor(const TileChannel& channel, int effort)
 {
     TilePredictor best;
     if (effort == 0)
         return best;
     std::uint64_t least = ~0ull;
-    for (int gouraud = 0; gouraud <= (plane.gouraud ? 1 : 0); ++gouraud)
+    for (int gouraud = 0; gouraud <= (channel.gouraud ? 1 : 0); ++gouraud)
         for (Shape shape : { Shape::median, Shape::mean, Shape::left, Shape::none }) {
             if (effort < 2 && (shape == Shape::none || (gouraud && shape == Shape::left)))
                 continue;
             const TilePredictor p { shape, gouraud != 0 };
-            std::uint64_t bits = estimate_tile_plane(plane, p);
+            std::uint64_t bits = estimate_tile_channel(channel, p);
             if (gouraud)
                 bits += bits / (effort < 2 ? 25 : 500);
             if (bits < least) {
@@ -220,15 +220,14 @@ Bytes Encoder::write_tile(std::uint32_t column, std::uint32_t row, const MeshLay
             const std::int32_t* from = m_integers.channels[c].data() + std::size_t(y + i) * m_integers.width + x;
             std::copy(from, from + width, values.begin() + std::ptrdiff_t(std::size_t(i) * width));
         }
-        TilePlane plane {
-            int(width), int(height), values.data(), nullptr, c > 0 ? before.data() : nullptr, sizes.data()
-        };
+        TileChannel channel { int(width),  int(height), values.data(), nullptr, c > 0 ? before.data() : nullptr,
+                              sizes.data() };
         if (m_options.effort > 0) {
             fill(chunks.layer.mesh, grid.triangles(), grid.at(column, row), chunks.layer.values[c],
                  mesh_shift(m_desc.channels[c].type), points, mesh.data());
-            plane.gouraud = mesh.data();
+            channel.gouraud = mesh.data();
         }
-        write_tile_plane(plane, choose_predictor(plane, m_options.effort), out);
+        write_tile_channel(channel, choose_predictor(channel, m_options.effort), out);
         sizes.swap(before);
     }
     return out;

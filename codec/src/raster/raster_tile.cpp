@@ -40,7 +40,7 @@ std::int64_t predict(std::int64_t w, std::int64_t n, std::int64_t nw, std::int64
 /// on the sample to the left: so a processor finds it while that one is still being decoded. visit(at, prediction,
 /// class) sets values[at] and returns the size of the residual.
 template<Shape shape, bool gouraud, class Visit>
-void walk(const TilePlane& t, Visit&& visit)
+void walk(const TileChannel& t, Visit&& visit)
 {
     const std::size_t up = std::size_t(t.width);
     const std::int32_t *const values = t.values, *const mesh = t.gouraud;
@@ -89,7 +89,7 @@ void walk(const TilePlane& t, Visit&& visit)
 }
 
 template<class Visit>
-void walk(const TilePlane& t, TilePredictor p, Visit&& visit)
+void walk(const TileChannel& t, TilePredictor p, Visit&& visit)
 {
     const auto with = [&](auto shape) {
         if (p.gouraud)
@@ -128,12 +128,12 @@ enum Method : std::uint8_t { kSymbols = 0, kPlanes = 1 };
 
 }  // namespace
 
-std::uint64_t estimate_tile_plane(const TilePlane& plane, TilePredictor predictor)
+std::uint64_t estimate_tile_channel(const TileChannel& channel, TilePredictor predictor)
 {
     std::vector<std::array<std::uint32_t, kTokens>> counts(kClasses, std::array<std::uint32_t, kTokens> {});
     std::uint64_t bits = 0;
-    walk(plane, predictor, [&](std::size_t at, std::int64_t prediction, std::uint32_t symbol_class) {
-        const std::uint32_t v = folded(plane.values[at], prediction);
+    walk(channel, predictor, [&](std::size_t at, std::int64_t prediction, std::uint32_t symbol_class) {
+        const std::uint32_t v = folded(channel.values[at], prediction);
         const Token t = token_of(v);
         ++counts[symbol_class][t.token];
         bits += std::uint64_t(t.extra) * 256;
@@ -150,15 +150,15 @@ std::uint64_t estimate_tile_plane(const TilePlane& plane, TilePredictor predicto
     return bits;
 }
 
-void write_tile_plane(const TilePlane& plane, TilePredictor predictor, Bytes& out)
+void write_tile_channel(const TileChannel& channel, TilePredictor predictor, Bytes& out)
 {
     SymbolWriter symbols;
-    symbols.reserve(plane.pixels());
+    symbols.reserve(channel.pixels());
     std::vector<std::uint32_t> residuals;
-    residuals.reserve(plane.pixels());
+    residuals.reserve(channel.pixels());
     std::uint32_t largest = 0;
-    walk(plane, predictor, [&](std::size_t at, std::int64_t prediction, std::uint32_t symbol_class) {
-        const std::uint32_t v = folded(plane.values[at], prediction);
+    walk(channel, predictor, [&](std::size_t at, std::int64_t prediction, std::uint32_t symbol_class) {
+        const std::uint32_t v = folded(channel.values[at], prediction);
         symbols.add(symbol_class, v);
         residuals.push_back(v);
         largest = std::max(largest, v);
@@ -183,7 +183,7 @@ void write_tile_plane(const TilePlane& plane, TilePredictor predictor, Bytes& ou
         put_bytes(out, coded.data(), coded.size());
 }
 
-bool TilePlaneReader::open(ByteReader& in, std::size_t pixels)
+bool TileChannelReader::open(ByteReader& in, std::size_t pixels)
 {
     const std::uint32_t head = in.u8();
     m_predictor = { Shape(head & 3), (head & 4) != 0 };
@@ -200,19 +200,19 @@ bool TilePlaneReader::open(ByteReader& in, std::size_t pixels)
     return zstd_unpack(in.take(std::size_t(packed)), std::size_t(packed), m_bytes.data(), m_bytes.size());
 }
 
-bool TilePlaneReader::read(const TilePlane& plane)
+bool TileChannelReader::read(const TileChannel& channel)
 {
-    if (m_predictor.gouraud && !plane.gouraud)
+    if (m_predictor.gouraud && !channel.gouraud)
         return false;
     const auto each = [&](auto&& number) {
-        walk(plane, m_predictor, [&](std::size_t at, std::int64_t prediction, std::uint32_t symbol_class) {
+        walk(channel, m_predictor, [&](std::size_t at, std::int64_t prediction, std::uint32_t symbol_class) {
             const std::uint32_t v = number(at, symbol_class);
-            plane.values[at] = restored(v, prediction);
+            channel.values[at] = restored(v, prediction);
             return size_of_folded(v);
         });
     };
     if (m_planar) {
-        const std::size_t pixels = plane.pixels();
+        const std::size_t pixels = channel.pixels();
         each([&](std::size_t at, std::uint32_t) {
             std::uint32_t v = 0;
             for (std::uint32_t k = m_planes; k-- > 0;)

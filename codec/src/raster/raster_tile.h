@@ -19,7 +19,7 @@ struct TilePredictor {
 };
 
 /// The samples of one channel of a tile, row-major without gaps.
-struct TilePlane {
+struct TileChannel {
     int width = 0, height = 0;
     std::int32_t* values = nullptr;
     const std::int32_t* gouraud = nullptr;  ///< the mesh layer there; needed by predictors that use it
@@ -31,20 +31,20 @@ struct TilePlane {
 };
 
 /// Appends the cheaper of the two codings.
-void write_tile_plane(const TilePlane& plane, TilePredictor predictor, Bytes& out);
+void write_tile_channel(const TileChannel& channel, TilePredictor predictor, Bytes& out);
 
 /// Bits, in 1/256, the residuals would take: an estimate without the coding itself.
-std::uint64_t estimate_tile_plane(const TilePlane& plane, TilePredictor predictor);
+std::uint64_t estimate_tile_channel(const TileChannel& channel, TilePredictor predictor);
 
 /// Reads one channel of a tile.
-class TilePlaneReader {
+class TileChannelReader {
 public:
     /// Reads the head and takes the stream; false when it is damaged. The bytes must stay alive.
     bool open(ByteReader& in, std::size_t pixels);
     bool uses_gouraud() const { return m_predictor.gouraud; }
 
     /// Decodes the channel; false when it is damaged.
-    bool read(const TilePlane& plane);
+    bool read(const TileChannel& channel);
 
 private:
     TilePredictor m_predictor;

@@ -36,26 +36,26 @@ std::size_t PictureDesc::offset_of(std::size_t c) const
 
 namespace {
 
-template<class PlaneType, class Pointer>
-std::vector<PlaneType> interleaved_planes(const PictureDesc& desc, Pointer pixels)
+template<class ChannelType, class Pointer>
+std::vector<ChannelType> interleaved_channels(const PictureDesc& desc, Pointer pixels)
 {
-    std::vector<PlaneType> planes;
+    std::vector<ChannelType> channels;
     const std::ptrdiff_t pixel = std::ptrdiff_t(desc.pixel_bytes());
     for (std::size_t c = 0; c < desc.channels.size(); ++c)
-        planes.push_back({ pixels + desc.offset_of(c), pixel, pixel * std::ptrdiff_t(desc.data.width) });
-    return planes;
+        channels.push_back({ pixels + desc.offset_of(c), pixel, pixel * std::ptrdiff_t(desc.data.width) });
+    return channels;
 }
 
 }  // namespace
 
 std::vector<ConstStridedChannel> interleaved(const PictureDesc& desc, const void* pixels)
 {
-    return interleaved_planes<ConstStridedChannel>(desc, static_cast<const std::uint8_t*>(pixels));
+    return interleaved_channels<ConstStridedChannel>(desc, static_cast<const std::uint8_t*>(pixels));
 }
 
 std::vector<StridedChannel> interleaved(const PictureDesc& desc, void* pixels)
 {
-    return interleaved_planes<StridedChannel>(desc, static_cast<std::uint8_t*>(pixels));
+    return interleaved_channels<StridedChannel>(desc, static_cast<std::uint8_t*>(pixels));
 }
 
 bool allows(const PictureDesc& desc, Transform transform)
@@ -108,13 +108,13 @@ int mesh_shift(SampleType type)
 namespace {
 
 template<class T>
-void gather_plane(SampleType type, const ConstStridedChannel& plane, std::uint32_t x0, std::uint32_t y0,
-                  std::uint32_t width, std::uint32_t height, std::int32_t* to)
+void gather_channel(SampleType type, const ConstStridedChannel& channel, std::uint32_t x0, std::uint32_t y0,
+                    std::uint32_t width, std::uint32_t height, std::int32_t* to)
 {
     for (std::uint32_t y = 0; y < height; ++y) {
-        const auto* from = static_cast<const std::uint8_t*>(plane.data) + std::ptrdiff_t(y0 + y) * plane.y_stride
-            + std::ptrdiff_t(x0) * plane.x_stride;
-        for (std::uint32_t x = 0; x < width; ++x, from += plane.x_stride) {
+        const auto* from = static_cast<const std::uint8_t*>(channel.data) + std::ptrdiff_t(y0 + y) * channel.y_stride
+            + std::ptrdiff_t(x0) * channel.x_stride;
+        for (std::uint32_t x = 0; x < width; ++x, from += channel.x_stride) {
             T bits;
             std::memcpy(&bits, from, sizeof bits);
             *to++ = to_integer(type, bits);
@@ -123,13 +123,13 @@ void gather_plane(SampleType type, const ConstStridedChannel& plane, std::uint32
 }
 
 template<SampleType type, class T>
-void scatter_plane(const std::int32_t* from, std::uint32_t width, std::uint32_t height, const StridedChannel& plane,
-                   std::uint32_t x0, std::uint32_t y0)
+void scatter_channel(const std::int32_t* from, std::uint32_t width, std::uint32_t height, const StridedChannel& channel,
+                     std::uint32_t x0, std::uint32_t y0)
 {
     for (std::uint32_t y = 0; y < height; ++y) {
-        auto* to = static_cast<std::uint8_t*>(plane.data) + std::ptrdiff_t(y0 + y) * plane.y_stride
-            + std::ptrdiff_t(x0) * plane.x_stride;
-        for (std::uint32_t x = 0; x < width; ++x, to += plane.x_stride) {
+        auto* to = static_cast<std::uint8_t*>(channel.data) + std::ptrdiff_t(y0 + y) * channel.y_stride
+            + std::ptrdiff_t(x0) * channel.x_stride;
+        for (std::uint32_t x = 0; x < width; ++x, to += channel.x_stride) {
             const T bits = T(to_bits(type, *from++));
             std::memcpy(to, &bits, sizeof bits);
         }
@@ -161,33 +161,33 @@ void range_of(SampleType type, std::int32_t& low, std::int32_t& high)
 
 }  // namespace
 
-Integers gather(const PictureDesc& desc, const std::vector<ConstStridedChannel>& planes, std::uint32_t x,
+Integers gather(const PictureDesc& desc, const std::vector<ConstStridedChannel>& channels, std::uint32_t x,
                 std::uint32_t y, std::uint32_t width, std::uint32_t height)
 {
     Integers result;
     result.width = width;
     result.height = height;
-    result.channels.resize(planes.size());
-    for (std::size_t c = 0; c < planes.size(); ++c) {
+    result.channels.resize(channels.size());
+    for (std::size_t c = 0; c < channels.size(); ++c) {
         const SampleType type = desc.channels[c].type;
         result.channels[c].resize(std::size_t(width) * height);
         std::int32_t* to = result.channels[c].data();
         switch (size_of(type)) {
         case 1:
-            gather_plane<std::uint8_t>(type, planes[c], x, y, width, height, to);
+            gather_channel<std::uint8_t>(type, channels[c], x, y, width, height, to);
             break;
         case 2:
-            gather_plane<std::uint16_t>(type, planes[c], x, y, width, height, to);
+            gather_channel<std::uint16_t>(type, channels[c], x, y, width, height, to);
             break;
         default:
-            gather_plane<std::uint32_t>(type, planes[c], x, y, width, height, to);
+            gather_channel<std::uint32_t>(type, channels[c], x, y, width, height, to);
         }
     }
     return result;
 }
 
 void scatter(SampleType type, std::vector<std::int32_t>& integers, std::uint32_t width, std::uint32_t height,
-             bool clamp, const StridedChannel& plane, std::uint32_t x, std::uint32_t y)
+             bool clamp, const StridedChannel& channel, std::uint32_t x, std::uint32_t y)
 {
     if (clamp) {
         std::int32_t low = 0, high = 0;
@@ -199,19 +199,19 @@ void scatter(SampleType type, std::vector<std::int32_t>& integers, std::uint32_t
     const std::int32_t* from = integers.data();
     switch (type) {
     case S::uint8:
-        scatter_plane<S::uint8, std::uint8_t>(from, width, height, plane, x, y);
+        scatter_channel<S::uint8, std::uint8_t>(from, width, height, channel, x, y);
         break;
     case S::uint16:
-        scatter_plane<S::uint16, std::uint16_t>(from, width, height, plane, x, y);
+        scatter_channel<S::uint16, std::uint16_t>(from, width, height, channel, x, y);
         break;
     case S::half:
-        scatter_plane<S::half, std::uint16_t>(from, width, height, plane, x, y);
+        scatter_channel<S::half, std::uint16_t>(from, width, height, channel, x, y);
         break;
     case S::uint32:
-        scatter_plane<S::uint32, std::uint32_t>(from, width, height, plane, x, y);
+        scatter_channel<S::uint32, std::uint32_t>(from, width, height, channel, x, y);
         break;
     case S::float32:
-        scatter_plane<S::float32, std::uint32_t>(from, width, height, plane, x, y);
+        scatter_channel<S::float32, std::uint32_t>(from, width, height, channel, x, y);
         break;
     }
 }
@@ -274,40 +274,40 @@ void inverse(Transform transform, std::vector<std::vector<std::int32_t>>& channe
 namespace {
 
 /// Whether rows are packed pixels in the byte order of the hash.
-bool is_packed(const PictureDesc& desc, const std::vector<ConstStridedChannel>& planes)
+bool is_packed(const PictureDesc& desc, const std::vector<ConstStridedChannel>& channels)
 {
     const std::uint16_t probe = 1;
     std::uint8_t low = 0;
     std::memcpy(&low, &probe, 1);
     bool packed = low == 1;
-    for (std::size_t c = 0; c < planes.size(); ++c)
-        packed = packed && planes[c].x_stride == std::ptrdiff_t(desc.pixel_bytes())
-            && planes[c].y_stride == planes[0].y_stride
-            && static_cast<const std::uint8_t*>(planes[c].data)
-                == static_cast<const std::uint8_t*>(planes[0].data) + desc.offset_of(c);
+    for (std::size_t c = 0; c < channels.size(); ++c)
+        packed = packed && channels[c].x_stride == std::ptrdiff_t(desc.pixel_bytes())
+            && channels[c].y_stride == channels[0].y_stride
+            && static_cast<const std::uint8_t*>(channels[c].data)
+                == static_cast<const std::uint8_t*>(channels[0].data) + desc.offset_of(c);
     return packed;
 }
 
 }  // namespace
 
-std::uint64_t hash_samples(const PictureDesc& desc, const std::vector<ConstStridedChannel>& planes)
+std::uint64_t hash_samples(const PictureDesc& desc, const std::vector<ConstStridedChannel>& channels)
 {
     SampleHash hash;
     const std::size_t pixel = desc.pixel_bytes();
-    if (is_packed(desc, planes)) {
+    if (is_packed(desc, channels)) {
         for (std::uint32_t y = 0; y < desc.data.height; ++y)
-            hash.add(static_cast<const std::uint8_t*>(planes[0].data) + std::ptrdiff_t(y) * planes[0].y_stride,
+            hash.add(static_cast<const std::uint8_t*>(channels[0].data) + std::ptrdiff_t(y) * channels[0].y_stride,
                      pixel * desc.data.width);
         return hash.value();
     }
     Bytes row(pixel * desc.data.width);
     for (std::uint32_t y = 0; y < desc.data.height; ++y) {
-        for (std::size_t c = 0; c < planes.size(); ++c) {
+        for (std::size_t c = 0; c < channels.size(); ++c) {
             const std::size_t bytes = size_of(desc.channels[c].type);
             const auto* from =
-                static_cast<const std::uint8_t*>(planes[c].data) + std::ptrdiff_t(y) * planes[c].y_stride;
+                static_cast<const std::uint8_t*>(channels[c].data) + std::ptrdiff_t(y) * channels[c].y_stride;
             std::uint8_t* to = row.data() + desc.offset_of(c);
-            for (std::uint32_t x = 0; x < desc.data.width; ++x, to += pixel, from += planes[c].x_stride) {
+            for (std::uint32_t x = 0; x < desc.data.width; ++x, to += pixel, from += channels[c].x_stride) {
                 std::uint32_t bits = 0;
                 if (bytes == 1)
                     bits = *from;

@@ -36,20 +36,20 @@ std::uint32_t to_bits(SampleType type, std::int32_t integer);
 /// Right shift that takes a channel's integers to the mesh layer's, which have at most 18 bits.
 int mesh_shift(SampleType type);
 
-/// Reads width x height samples starting at (x, y) of the planes.
-Integers gather(const PictureDesc& desc, const std::vector<ConstStridedChannel>& planes, std::uint32_t x,
+/// Reads width x height samples of every channel, starting at (x, y).
+Integers gather(const PictureDesc& desc, const std::vector<ConstStridedChannel>& channels, std::uint32_t x,
                 std::uint32_t y, std::uint32_t width, std::uint32_t height);
 
 /// In place, on the first three channels.
 void forward(Transform transform, std::vector<std::vector<std::int32_t>>& channels);
 void inverse(Transform transform, std::vector<std::vector<std::int32_t>>& channels);
 
-/// Writes the integers of channel c, untransformed, as samples at (x, y) of its plane. With `clamp`, values outside the
+/// Writes the integers of channel c, untransformed, as samples at (x, y) of `channel`. With `clamp`, values outside the
 /// type's range are brought back into it: for the mesh layer alone. The integers are used up.
 void scatter(SampleType type, std::vector<std::int32_t>& integers, std::uint32_t width, std::uint32_t height,
-             bool clamp, const StridedChannel& plane, std::uint32_t x, std::uint32_t y);
+             bool clamp, const StridedChannel& channel, std::uint32_t x, std::uint32_t y);
 
 /// XXH64 of all samples: rows top down, pixels left to right, channels in order, each little-endian.
-std::uint64_t hash_samples(const PictureDesc& desc, const std::vector<ConstStridedChannel>& planes);
+std::uint64_t hash_samples(const PictureDesc& desc, const std::vector<ConstStridedChannel>& channels);
 
 }  // namespace pimg
