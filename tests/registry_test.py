@@ -19,6 +19,7 @@ import numpy as np
 import plugin_files
 from plugin_files import read, scene, write
 
+DOCS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "docs")
 LABELS = {"segment", "dual_pieces"}  # no picture, so not for GEGL
 QUOTED = "no:such:picture"
 
@@ -121,6 +122,23 @@ class FrontEnds(plugin_files.PluginTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(sorted(line.split()[0] for line in done.stdout.splitlines()),
                          sorted("org.pimg." + name for name in self.names))
+
+    def test_pages_name_every_filter_and_only_keys_that_there_are(self):
+        with open(os.path.join(DOCS, "plugin.md"), encoding="utf-8") as page:
+            keys_of_reading = page.read().split("Configuration settings for reading")[1].split("for writing")[0]
+        rows = {line.split("`")[1]: line for line in keys_of_reading.splitlines() if line.startswith("| `")}
+        for name in self.names:
+            self.assertIn(name, rows, "docs/plugin.md")
+            words = [word.split("=")[0] for word in rows[name].split(";", 1)[-1].split("`")[1::2]]
+            helped = self.pimgtool("--help", "--" + name.replace("_", "-")).stdout
+            keys = [line.split()[0].split("=")[0] for line in helped.splitlines() if line.startswith("  ") and line.strip()]
+            for word in words:
+                if word not in (*self.names, "on") and not word.startswith("pimgtool"):
+                    self.assertIn(word, keys, f"docs/plugin.md, {name}")
+        with open(os.path.join(DOCS, "reference.md"), encoding="utf-8") as page:
+            headings = [line.strip("# \n") for line in page if line.startswith("#")]
+        for name in self.names:
+            self.assertIn(name, headings, "docs/reference.md")
 
     def test_quotes_mean_the_same_everywhere(self):
         for mark in "\"'":
