@@ -35,6 +35,12 @@ usage: ./dev.sh COMMAND
           --odr      a build for -Wodr in build/odr: no type is defined twice
           --deep     clang's static analyser instead of the other checks of clang-tidy, five times as slow
           COMMIT     is where this branch left main, or the one before the last on main itself
+  fuzz    setup, build the fuzz targets with clang, run each for its share of a time: fuzz MINUTES [TARGET...]. It starts
+          from fuzz/corpus and what earlier runs found; build/fuzz/crashes receives inputs that are findings
+  sanitize  setup, then the tests of core, codec and painting and the replay of all kept inputs with AddressSanitizer,
+          UndefinedBehaviorSanitizer and the assertions of libstdc++ in build/sanitize; --threads, --memory: with
+          ThreadSanitizer, MemorySanitizer instead
+  package setup, make the Debian packages in build/package and look them over with lintian
   demo    setup, build, tone-map a real HDR photograph and more, in build/demo
   gallery setup, build, make every figure of the paper and more in docs/gallery (some minutes)
   docs    setup, make the documentation site in build/docs
@@ -148,6 +154,80 @@ run_check() { # options as in usage()
     fi
 }
 
+run_fuzz() { # minutes, targets...
+    local minutes=${1:?"fuzz: expected a number of minutes"} target found crashes
+    shift
+    packages+=(clang)
+    setup
+    local targets=("$@")
+    if [[ ${#targets[@]} -eq 0 ]]; then
+        targets=(decoder roundtrip stroke_file options metadata plugin command_line shot)
+    fi
+    say "building ${#targets[@]} fuzz targets in build/fuzz"
+    mkdir -p build
+    cmake --preset fuzz ${fuzz_options[@]+"${fuzz_options[@]}"} >build/fuzz.configure.log || { cat build/fuzz.configure.log; return 1; }
+    cmake --build build/fuzz -j "$jobs" --target "${targets[@]/#/fuzz_}"
+    local seconds
+    seconds=$(awk -v m="$minutes" -v n="${#targets[@]}" 'BEGIN { print int(60 * m / n + 0.5) }')
+    for target in "${targets[@]}"; do
+        found=build/fuzz/found/$target crashes=$PWD/build/fuzz/crashes/$target
+        mkdir -p "$found" "$crashes" "build/fuzz/fuzz/corpus/$target"
+        say "$target for $seconds s"
+        (cd "build/fuzz/fuzz/scratch/$target" && LSAN_OPTIONS=suppressions=$OLDPWD/fuzz/leaks.supp:print_suppressions=0 \
+            "$OLDPWD/build/fuzz/fuzz/fuzz_$target" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -max_len=8192 \
+            -artifact_prefix="$crashes/" -print_final_stats=1 "$OLDPWD/$found" "$OLDPWD/build/fuzz/fuzz/corpus/$target" 2>&1) |
+            grep -vE '^#|DICT|NEW_FUNC|dictionary|# Uses' || true
+        if [[ -n $(ls "$crashes") ]]; then
+            echo "dev.sh: findings of $target in $crashes" >&2
+            return 1
+        fi
+    done
+}
+
+run_sanitize() { # --threads, --memory
+    setup
+    mkdir -p build
+    local preset=asan
+    case ${1:-} in
+    '') ;;
+    --threads) preset=tsan ;;
+    --memory) preset=msan ;;
+    *) usage >&2 && exit 2 ;;
+    esac
+    say "core, codec and painting with $preset"
+    cmake --preset "$preset" -B "build/sanitize-$preset" -DPIMG_CODEC_ONLY=ON >"build/$preset.log" ||
+        { cat "build/$preset.log"; return 1; }
+    cmake --build "build/sanitize-$preset" -j "$jobs"
+    if [[ $preset == msan ]]; then
+        "build/sanitize-$preset/fuzz/fuzz_decoder_replay" fuzz/crashes/decoder "build/sanitize-$preset/fuzz/corpus/decoder"
+        "build/sanitize-$preset/fuzz/fuzz_roundtrip_replay" "build/sanitize-$preset/fuzz/corpus/roundtrip"
+    else
+        ctest --test-dir "build/sanitize-$preset" --output-on-failure -j "$jobs"
+    fi
+}
+
+run_package() {
+    packages+=(dpkg-dev file fakeroot lintian)
+    setup
+    local tree=build/package epoch launcher=()
+    epoch=$(git log -1 --format=%ct 2>/dev/null || date +%s)
+    export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$epoch}
+    if command -v ccache >/dev/null; then
+        launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+    fi
+    say "building the packages in $tree"
+    mkdir -p build
+    cmake -S . -B "$tree" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=/usr -DPIMG_PACKAGING=ON \
+        -DPIMG_BUILD_TESTS=OFF -DPIMG_BUILD_BENCH=OFF -DPIMG_BUILD_PYTHON=ON -DPIMG_BUILD_GEGL=ON \
+        -DPIMG_INSTALL_PYTHONDIR=lib/python3/dist-packages "${launcher[@]}" >"$tree.configure.log" ||
+        { cat "$tree.configure.log"; return 1; }
+    cmake --build "$tree" -j "$jobs"
+    (cd "$tree" && rm -f ./*.deb && cpack -G DEB >cpack.log) || { cat "$tree/cpack.log"; return 1; }
+    say "lintian"
+    lintian --no-tag-display-limit --fail-on error "$tree"/*.deb
+    ls -l "$tree"/*.deb
+}
+
 run_demo() {
     setup
     say "building pimgtool in $build"
@@ -192,6 +272,9 @@ setup) setup && echo "all packages are installed" ;;
 build) run_build ;;
 test) run_test ;;
 check) run_check "$@" ;;
+package) run_package ;;
+fuzz) run_fuzz "$@" ;;
+sanitize) run_sanitize "$@" ;;
 demo) run_demo ;;
 gallery) run_gallery ;;
 docs) run_docs ;;

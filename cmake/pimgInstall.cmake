@@ -9,7 +9,7 @@ install(FILES
     ${PROJECT_BINARY_DIR}/pimgConfig.cmake
     ${PROJECT_BINARY_DIR}/pimgConfigVersion.cmake
     cmake/pimgDependencies.cmake
-    DESTINATION ${PIMG_INSTALL_CMAKEDIR})
+    DESTINATION ${PIMG_INSTALL_CMAKEDIR} COMPONENT dev)
 
 # Relative to the .pc file, so that the installed tree can be moved.
 if(IS_ABSOLUTE "${CMAKE_INSTALL_INCLUDEDIR}")
@@ -21,10 +21,29 @@ else()
 endif()
 foreach(module pimg pimg-c)
     configure_file(cmake/${module}.pc.in ${module}.pc @ONLY)
-    install(FILES ${PROJECT_BINARY_DIR}/${module}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+    install(FILES ${PROJECT_BINARY_DIR}/${module}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
 endforeach()
-install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+if(NOT PIMG_PACKAGING)
+    install(FILES LICENSE THIRD-PARTY.md README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT dev)
+endif()
+include(pimgSbom)
 
 # What files of ours are, for file(1) and for desktops.
-install(FILES codec/share/pimg-mime.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages RENAME pimg.xml)
-install(FILES codec/share/pimg.magic DESTINATION ${CMAKE_INSTALL_DATADIR}/pimg)
+install(FILES codec/share/pimg-mime.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages RENAME pimg.xml
+        COMPONENT tools)
+install(FILES codec/share/pimg.magic DESTINATION ${CMAKE_INSTALL_DATADIR}/pimg COMPONENT tools)
+
+# Packages only, for they name folders: thumbnails for file managers, and where the plugin is.
+set(PIMG_PLUGIN_FULL_DIR "${PIMG_INSTALL_PLUGINDIR}")
+if(NOT IS_ABSOLUTE "${PIMG_PLUGIN_FULL_DIR}")
+    string(PREPEND PIMG_PLUGIN_FULL_DIR "${CMAKE_INSTALL_PREFIX}/")
+endif()
+
+if(PIMG_PACKAGING)
+    configure_file(packaging/pimg-thumbnailer.in pimg-thumbnailer @ONLY)
+    install(PROGRAMS ${PROJECT_BINARY_DIR}/pimg-thumbnailer DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
+    install(FILES packaging/pimg.thumbnailer DESTINATION ${CMAKE_INSTALL_DATADIR}/thumbnailers COMPONENT tools)
+    configure_file(packaging/pimg.sh.in pimg.sh @ONLY)
+    install(FILES ${PROJECT_BINARY_DIR}/pimg.sh DESTINATION /etc/profile.d COMPONENT plugin)
+    include(pimgPackage)
+endif()

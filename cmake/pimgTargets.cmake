@@ -47,10 +47,10 @@ function(pimg_add_library name)
     target_sources(${target} PRIVATE ${arg_DETAIL_HEADERS})
     target_include_directories(${target} PRIVATE src)
     install(TARGETS ${target} EXPORT pimg_${name}
-        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-        FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev
+        FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
     install(EXPORT pimg_${name} NAMESPACE pimg:: FILE pimg_${name}.cmake
-        DESTINATION ${PIMG_INSTALL_CMAKEDIR})
+        DESTINATION ${PIMG_INSTALL_CMAKEDIR} COMPONENT dev)
 endfunction()
 
 # pimg_vector_sources(<name> <source>...): sources of pimg_<name> that Highway compiles once per instruction set, chosen at run
@@ -59,4 +59,12 @@ endfunction()
 function(pimg_vector_sources name)
     set_source_files_properties(${ARGN} PROPERTIES
         COMPILE_DEFINITIONS "HWY_BROKEN_EMU128=0;HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_AVX3_DL)")
+endfunction()
+
+# The vector code in one vector width, of inlined functions by the hundred, is what clang takes minutes to instrument: the
+# fuzzers look for what bytes do, and it sees none of them before they were checked.
+function(pimg_uninstrumented_when_fuzzed)
+    if(PIMG_BUILD_FUZZERS)
+        set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "-fno-sanitize=all")
+    endif()
 endfunction()

@@ -22,6 +22,7 @@ CONTENTS = (
     ("Pipelines", ("docs/pipeline.md", "docs/python.md", "docs/plugin.md", "docs/hosts.md", "docs/ofx.md")),
     ("How it works", ("docs/smoothing.md", "docs/adaptive.md", "docs/performance.md", "docs/format.md",
                       "docs/internals.md")),
+    ("Trust", ("SECURITY.md", "docs/security.md", "docs/versions.md", "THIRD-PARTY.md", "fuzz/README.md")),
     ("Development", ("docs/architecture.md", "CONTRIBUTING.md", "CHANGELOG.md")),
 )
 PAGES = [page for _, pages in CONTENTS for page in pages]

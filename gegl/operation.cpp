@@ -239,7 +239,7 @@ gboolean process(GeglOperation* operation, GeglBuffer* input, GeglBuffer* output
     } catch (const std::exception& exception) {
         error = exception.what();
     }
-    g_warning("%s: %s", GEGL_OPERATION_GET_CLASS(operation)->name, error.c_str());
+    g_warning("%s: %s", GEGL_OPERATION_GET_CLASS(operation)->name, pimg::one_line(error).c_str());
     return FALSE;
 }
 

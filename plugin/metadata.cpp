@@ -176,7 +176,9 @@ void add_strings(AttributeList& list, const Attribute& attribute, TypeDesc type)
 void add_attribute(AttributeList& list, const Attribute& attribute)
 {
     const TypeDesc type = parse_type(attribute.type);
-    if (attribute.name.empty() || is_hint(attribute.name, type) || type.arraylen < 0)
+    // OpenImageIO ends a name at a zero character: what follows it would get a hint past the list of hints.
+    if (attribute.name.empty() || attribute.name.find('\0') != std::string::npos || is_hint(attribute.name, type)
+        || type.arraylen < 0)
         return;
     if (type.basetype == TypeDesc::STRING) {
         if (type.aggregate == TypeDesc::SCALAR)

@@ -29,7 +29,7 @@ constexpr int kThumbnailSide = 256;
 
 bool PimgInput::fail(const std::string& message)
 {
-    errorfmt("{}", with_words_shortened(message));
+    errorfmt("{}", one_line(message));
     return false;
 }
 

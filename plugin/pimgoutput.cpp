@@ -10,6 +10,7 @@
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/strutil.h>
 
+#include <pimg/detail/format.h>
 #include <pimg/detail/safe_file.h>
 #include <pimg/progressive_image.h>
 #include <pimg/threads.h>
@@ -113,7 +114,7 @@ bool PimgOutput::read_hints()
     if (!words.empty() && (words[0] == "compact" || words[0] == "full")) {
         m_options.profile = words[0];
         if (words.size() > 1 && !set_option(m_options, "effort", words[1], error)) {
-            errorfmt("pimg: compression \"{}\": {}", m_spec.get_string_attribute("compression"), error);
+            errorfmt("pimg: compression {}", one_line(error));
             return false;
         }
     }
@@ -131,7 +132,7 @@ bool PimgOutput::read_hints()
         else if (is_one_of(option_table<BuildOptions>()))
             fine = m_build_given = set_option(m_build, key, hint_text(hint), error);
         if (!fine) {
-            errorfmt("pimg: {}", error);
+            errorfmt("pimg: {}", one_line(error));
             return false;
         }
     }

@@ -17,7 +17,17 @@ namespace {
 
 std::string path_text(const py::object& path)
 {
-    return py::module_::import("os").attr("fspath")(path).cast<std::string>();
+    auto text = py::module_::import("os").attr("fspath")(path).cast<std::string>();
+    if (text.find('\0') != text.npos)
+        throw py::value_error("path: expected a name without a zero character");
+    return text;
+}
+
+/// Pictures come from build() and open(): one that Python makes itself would be memory that was never set.
+PyObject* refuse_new(PyTypeObject* /*type*/, PyObject* /*arguments*/, PyObject* /*keywords*/)
+{
+    PyErr_SetString(PyExc_TypeError, "ProgressiveImage: expected pimg.build() or pimg.open() to make one");
+    return nullptr;
 }
 
 void add_filters(py::module_& module, py::class_<Progressive>& progressive)
@@ -133,6 +143,7 @@ void define(py::module_& module)
                                         R"(A picture with its hierarchy, from build() or open().
 
 Filters are methods; results are of the kind of the source. May be used from several threads at once.)");
+    reinterpret_cast<PyTypeObject*>(progressive.ptr())->tp_new = refuse_new;
     add_building(module);
     add_filters(module, progressive);
     add_progressive(progressive);

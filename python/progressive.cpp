@@ -26,7 +26,7 @@ using pimg::format;
 
 [[noreturn]] void raise(PyObject* type, const std::string& message)
 {
-    PyErr_SetString(type, message.c_str());
+    PyErr_SetString(type, one_line(message).c_str());
     throw py::error_already_set();
 }
 
@@ -36,7 +36,7 @@ Options options_from(const OptionTexts& texts)
     Options options;
     std::string error;
     if (!set_options(options, texts, error))
-        throw py::value_error(error);
+        throw py::value_error(one_line(error));
     return options;
 }
 
@@ -80,7 +80,7 @@ void build_with(ProgressiveImage& image, const py::object& progress, Make&& make
     }
     report.rethrow();
     if (!built)
-        throw py::value_error(image.error());
+        throw py::value_error(one_line(image.error()));
 }
 
 /// A file of another format, straight into memory of our own.
@@ -182,7 +182,7 @@ void save(const Progressive& progressive, const std::string& filename, const Opt
     write_options.profile = "full";
     std::string error;
     if (!set_options(write_options, options, error))
-        throw py::value_error(error);
+        throw py::value_error(one_line(error));
     if (!OIIO::Strutil::iequals(OIIO::Filesystem::extension(filename), ".pimg"))
         throw py::value_error(format("\"{}\": expected a name that ends in .pimg", filename));
     {
@@ -211,7 +211,7 @@ py::object run(const Filter& filter, const py::object& source, const py::object&
     BoundFilter bound;
     std::string error;
     if (!filter.bind(options, bound, error))
-        throw py::value_error(error);
+        throw py::value_error(one_line(error));
     const OIIO::ROI region = to_roi(roi);
     if (py::isinstance<Progressive>(source)) {
         const auto& progressive = source.cast<const Progressive&>();
@@ -234,7 +234,7 @@ py::dict resolve_hdr_compress(const Progressive& progressive, int nthreads, cons
         resolved = ImageBufAlgo::resolve_hdr_compress(progressive.image, options, error, nthreads);
     }
     if (!resolved)
-        throw py::value_error(error);
+        throw py::value_error(one_line(error));
     py::dict result;
     for (const Option<HdrCompressOptions>& option : option_table<HdrCompressOptions>())
         result[option.rule.key] =

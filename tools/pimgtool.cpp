@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pimgtool: progressive images on the command line. arguments -> program -> steps on a stack of pictures.
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -8,7 +9,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -33,12 +33,9 @@ namespace {
 using namespace pimgtool;
 
 /// Errors are one line, whatever a library put into its message.
-int report(std::string error)
+int report(const std::string& error)
 {
-    while (!error.empty() && error.back() == '\n')
-        error.pop_back();
-    std::replace(error.begin(), error.end(), '\n', ' ');
-    std::fprintf(stderr, "pimgtool: error: %s\n", pimg::with_words_shortened(error).c_str());
+    std::fprintf(stderr, "pimgtool: error: %s\n", pimg::one_line(error).c_str());
     return 1;
 }
 

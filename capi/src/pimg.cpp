@@ -42,7 +42,7 @@ bool guarded(char* error, std::size_t error_size, Body&& body) noexcept
         std::string message;
         if (body(message))
             return true;
-        report(message.c_str(), error, error_size);
+        report(pimg::one_line(message).c_str(), error, error_size);
     } catch (const std::bad_alloc&) {
         report("not enough memory", error, error_size);
     } catch (const std::exception& exception) {

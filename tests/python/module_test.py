@@ -161,6 +161,29 @@ class Filters(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "mask"):
             pimg.level(np.ma.masked_array(array, mask=array > 0.5))
 
+    def test_only_build_and_open_make_pictures(self):
+        for make in (pimg.ProgressiveImage, lambda: pimg.ProgressiveImage.__new__(pimg.ProgressiveImage),
+                     type("Derived", (pimg.ProgressiveImage,), {"__init__": lambda self: None})):
+            with self.assertRaises(TypeError):
+                make()
+
+    def test_names_hold_no_zero_characters(self):
+        image = pimg.build(scene())
+        before = set(os.listdir())
+        for call in (lambda: image.save("a\0.pimg"), lambda: pimg.open("a\0.exr"), lambda: image.paint(strokes="a\0.svg"),
+                     lambda: image.segment(stats="a\0.csv")):
+            with self.assertRaisesRegex(ValueError, "zero character"):
+                call()
+        self.assertEqual(set(os.listdir()), before)
+
+    def test_quoted_texts_of_any_length_and_kind_are_one_line(self):
+        for text in ("x" * 5000, "x " * 5000, "a\nb", "a\x1b[2J"):
+            with self.assertRaises(ValueError) as raised:
+                pimg.build(scene(), guide=text)
+            message = str(raised.exception)
+            self.assertLess(len(message), 1600)
+            self.assertTrue(message.isprintable(), message)
+
     def test_buffers_keep_windows_and_metadata(self):
         spec = oiio.ImageSpec(61, 47, 3, "half")
         spec.x, spec.y, spec.full_width, spec.full_height = 5, -7, 100, 90

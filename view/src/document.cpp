@@ -135,7 +135,7 @@ void Document::fail(int version, const std::string& error)
     std::string line = error;
     std::replace(line.begin(), line.end(), '\n', ' ');
     update(version, [&](DocumentState& state) {
-        state.error = pimg::with_words_shortened(line);
+        state.error = pimg::one_line(line);
         state.activity.clear();
     });
 }

@@ -20,7 +20,7 @@ int report(std::string error)
     while (!error.empty() && error.back() == '\n')
         error.pop_back();
     std::replace(error.begin(), error.end(), '\n', ' ');
-    std::fprintf(stderr, "pimgview: error: %s\n", pimg::with_words_shortened(error).c_str());
+    std::fprintf(stderr, "pimgview: error: %s\n", pimg::one_line(error).c_str());
     return 1;
 }
 

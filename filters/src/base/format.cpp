@@ -10,21 +10,38 @@ std::string format_packed(fmt::string_view pattern, fmt::format_args arguments)
     return fmt::vformat(pattern, arguments);
 }
 
-std::string with_words_shortened(const std::string& message)
+namespace {
+
+/// `text` from `begin` to `end` without the middle if it is longer than `longest`, of which a quarter is kept of its end.
+void append_shortened(std::string& result, const std::string& text, std::size_t begin, std::size_t end,
+                      std::size_t longest)
 {
-    // The longest path most systems have for one name fits.
-    constexpr std::size_t kLongest = 300, kBegin = 200, kEnd = 80;
-    std::string result;
+    const std::size_t tail = longest / 4, head = longest - tail - 3;
+    if (end - begin <= longest)
+        result.append(text, begin, end - begin);
+    else
+        result.append(text, begin, head).append("...").append(text, end - tail, tail);
+}
+
+}  // namespace
+
+std::string one_line(const std::string& message)
+{
+    // The longest path most systems have for one name fits in a word; the list of all keys of the plugin in a message.
+    constexpr std::size_t kLongestWord = 300, kLongest = 1500;
+    std::string words;
     for (std::size_t at = 0; at < message.size();) {
         const std::size_t end = std::min(message.find(' ', at), message.size());
-        if (end - at <= kLongest)
-            result.append(message, at, end - at);
-        else
-            result.append(message, at, kBegin).append("...").append(message, end - kEnd, kEnd);
+        append_shortened(words, message, at, end, kLongestWord);
         at = end;
         if (at < message.size())
-            result += message[at++];
+            words += message[at++];
     }
+    std::string result;
+    append_shortened(result, words, 0, words.find_last_not_of('\n') + 1, kLongest);
+    for (char& c : result)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+            c = c == '\n' ? ' ' : '?';
     return result;
 }
 

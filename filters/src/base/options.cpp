@@ -143,6 +143,10 @@ bool parse_option(const OptionRule& rule, std::string_view text, OptionValue& va
     const OptionValue type = value;
     double number = 0.0;
     bool flag = false;
+    if (text.find('\0') != text.npos) {  // the name of a file would end there
+        error = std::string(rule.key) + ": expected text without a zero character";
+        return false;
+    }
     if (std::holds_alternative<std::string>(type))
         value = std::string(text);
     else if (std::holds_alternative<bool>(type) && to_flag(text, flag))

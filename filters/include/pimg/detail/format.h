@@ -28,7 +28,8 @@ inline void set_error(const OIIO::ImageBuf& picture, const std::string& message)
     picture.error(OIIO::string_view(message));
 }
 
-/// A message with the middle of every word over 300 characters left out: what it quotes may be of any length.
-std::string with_words_shortened(const std::string& message);
+/// A message as users see it, for what it quotes may be of any length and hold anything: one line of at most 1500 bytes, the
+/// middle left out of it and of every word over 300, line breaks as spaces, other control characters as question marks.
+std::string one_line(const std::string& message);
 
 }  // namespace pimg

@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""First inputs for the fuzz targets, and a dictionary of the words of our grammars.
+
+usage: make_seeds.py CONFORMANCE PIMGTOOL FOLDER
+
+CONFORMANCE is the program codec_conformance, which writes small .pimg files; PIMGTOOL tells the options. FOLDER receives
+a folder of seeds for each target, and words.dict.
+"""
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+SHOTS = ['{"frames": [{"frame": 1, "dmax": 3.5, "key": 0.18, "white": 4}]}',
+         '{"frames": [{"frame": 1, "dmax": 3, "key": 0.1, "white": 4}, {"frame": -2147483648, "dmax": 1e-38, "key": 9, '
+         '"white": 3e38}]}', '{"frames": []}', '{}']
+COMMAND_LINES = ["in.png\n--level:fraction=0.1\n-o\nout.png", "--frames\n1-10x3\na.#.exr\n--hdr-compress\n-o\nb.#.png",
+                 "--views\nleft,right\na.%V.exr\n-o\nb.%v.pimg", "--shot-stats:mode=lock\nshot.json\n--frames\n1,5-9\n"
+                 "a.%04d.exr\n--hdr-compress:s0=0.3\n-o\nb.%04d.png", "--help", "--threads\n2\n--info\na.pimg",
+                 "a.exr\n--colorconvert\nlinear\nsRGB\n-d\nuint8\n-o:quality=90\nb.jpg"]
+
+
+def option_rows(tool):
+    """(command, key, default) of every option, from the long help."""
+    text = subprocess.run([tool, "--help:format=man"], capture_output=True, text=True, check=True).stdout
+    return sorted(set(re.findall(r"[a-z_]{2,}", text)))
+
+
+def write(folder, number, content):
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / f"seed{number:03d}").write_bytes(content if isinstance(content, bytes) else content.encode())
+
+
+def pimg_files(program):
+    with tempfile.TemporaryDirectory() as scratch:
+        subprocess.run([program, scratch], check=True)
+        return [path.read_bytes() for path in sorted(pathlib.Path(scratch).glob("*.pimg"))]
+
+
+def attributes_of(file):
+    """The payload of a file's META chunk; empty if there is none."""
+    at = 8
+    while at + 16 <= len(file):
+        length = int.from_bytes(file[at + 8:at + 16], "little")
+        if file[at:at + 4].upper() == b"META":
+            return file[at + 16:at + 16 + length]
+        at += 20 + length
+    return b""
+
+
+def main(conformance, tool, folder):
+    folder = pathlib.Path(folder)
+    files = pimg_files(conformance)
+    filters = subprocess.run([tool, "--help"], capture_output=True, text=True, check=True).stdout
+    names = [name.replace("-", "_") for name in re.findall(r"^\s+--([a-z-]+)", filters, re.M)]
+    queries = ["", "level=0.5", "mip=1", "partial=1&display=1"] + [f"{name}=1" for name in names]
+    for number, file in enumerate(files):
+        write(folder / "decoder", number, file)
+        write(folder / "metadata", number, attributes_of(file))
+    for number, query in enumerate(queries):
+        write(folder / "plugin", number, query.encode() + b"\0" + files[number % len(files)])
+    for number, name in enumerate(names):
+        write(folder / "options", number, f"{name}\nfraction=0.5:seed=3:stats=\"a b.json\"")
+    for number, text in enumerate(COMMAND_LINES):
+        write(folder / "command_line", number, text)
+    for number, text in enumerate(SHOTS):
+        write(folder / "shot", number, text)
+    for number in range(4):
+        noise = bytes((17 * i * (number + 3)) % 251 for i in range(64 << number))
+        write(folder / "roundtrip", number, noise)
+        write(folder / "stroke_file", number, noise)
+    words = option_rows(tool) + ["=", ":", "&", "%04d", "#", "@", "\\x89PIM", "nan", "inf", "-1", "1e38", "2147483648"]
+    (folder / "words.dict").write_text("".join(f'"{word}"\n' for word in words))
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 4:
+        sys.exit(__doc__)
+    main(*sys.argv[1:])

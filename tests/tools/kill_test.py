@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Writers that are killed, and writers of one name at the same time: a file is the old one or a new one, whole.
+
+Environment: PIMGTOOL; PIMG_KILLS, how often to kill the writer of each format, default 1.
+"""
+import os
+import random
+import subprocess
+import tempfile
+import time
+import unittest
+
+import numpy as np
+import OpenImageIO as oiio
+
+TOOL = os.environ["PIMGTOOL"]
+FORMATS = ("pimg", "exr", "tif", "png", "jpg", "bmp", "tga", "ppm", "sgi", "hdr", "gif", "jp2", "dpx", "webp")
+
+
+def write(path, seed):
+    noise = np.random.default_rng(seed).integers(0, 256, (120, 160, 3), dtype=np.uint8)
+    buffer = oiio.ImageBuf(oiio.ImageSpec(160, 120, 3, "uint8"))
+    buffer.set_pixels(buffer.roi, noise)
+    buffer.write(path)
+
+
+def pixels(path):
+    """Of a .pimg file, which Python's OpenImageIO reads with the plugin only, the bytes."""
+    if path.endswith(".pimg"):
+        with open(path, "rb") as file:
+            return file.read()
+    buffer = oiio.ImageBuf(path)
+    return buffer.get_pixels("float").tobytes() + str(buffer.has_error).encode()
+
+
+class Killed(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        for seed in (1, 2):
+            write(self.path(f"{seed}.ppm"), seed)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def start(self, seed, target):
+        return subprocess.Popen([TOOL, self.path(f"{seed}.ppm"), "-o", target], stderr=subprocess.PIPE)
+
+    def finished(self, seed, target):
+        """What the target holds after a run that was left alone, and how long that took; None for no such writer."""
+        before = time.monotonic()
+        with self.start(seed, target) as process:
+            failed = process.wait() != 0
+        return None if failed else (pixels(target), time.monotonic() - before)
+
+    def test_killed_writers_leave_the_old_file_or_the_new(self):
+        chance = random.Random(1)
+        tried = 0
+        for extension in FORMATS:
+            target = self.path(f"out.{extension}")
+            new = self.finished(2, target)
+            old = self.finished(1, target)
+            if old is None or new is None:
+                continue
+            tried += 1
+            for _ in range(int(os.environ.get("PIMG_KILLS", "1"))):
+                with self.start(2, target) as process:
+                    time.sleep(chance.uniform(0.2, 1.05) * new[1])
+                    process.kill()
+                self.assertIn(pixels(target), (old[0], new[0]), extension)
+        self.assertGreaterEqual(tried, 10)
+
+    def test_of_two_writers_of_one_name_one_wins_whole(self):
+        for extension in ("pimg", "exr", "png", "jpg"):
+            target = self.path(f"both.{extension}")
+            ends = [self.finished(seed, target)[0] for seed in (1, 2)]
+            self.assertNotEqual(*ends)
+            for _ in range(3):
+                processes = [self.start(seed, target) for seed in (1, 2)]
+                for process in processes:
+                    with process:
+                        self.assertEqual(process.wait(), 0)
+                self.assertIn(pixels(target), ends, extension)
+        self.assertEqual({name for name in os.listdir(self.folder) if name.startswith("both")},
+                         {f"both.{extension}" for extension in ("pimg", "exr", "png", "jpg")})
+
+
+if __name__ == "__main__":
+    unittest.main()
