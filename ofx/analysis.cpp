@@ -7,7 +7,7 @@
 #include <pimg/imagebufalgo.h>
 
 #include "colour_space.h"
-#include "shot.h"
+#include "session/shot.h"
 
 namespace pimg_ofx {
 

@@ -8,7 +8,7 @@
 #include <OpenImageIO/strutil.h>
 
 #include "analysis.h"
-#include "shot.h"
+#include "session/shot.h"
 
 namespace pimg_ofx {
 

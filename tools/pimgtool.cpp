@@ -25,8 +25,8 @@
 
 #include <pimg/detail/format.h>
 
-#include "help.h"
-#include "sequence.h"
+#include "command/help.h"
+#include "command/sequence.h"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command line of pimgtool taken apart without running it: what is turned away, and in which words.
-#include "command.h"
+#include "command/command.h"
 
 #include <cmath>
 #include <fstream>
@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 #include <OpenImageIO/strutil.h>
 
-#include "help.h"
-#include "sequence.h"
-#include "shot.h"
+#include "command/help.h"
+#include "command/sequence.h"
+#include "session/shot.h"
 
 namespace {
 

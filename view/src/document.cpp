@@ -13,8 +13,8 @@
 #include <pimg/filter_table.h>
 #include <pimg/threads.h>
 
-#include "pimg_file.h"
-#include "stack.h"
+#include "session/pimg_file.h"
+#include "session/stack.h"
 
 namespace pimgview {
 

@@ -13,7 +13,7 @@
 #include <pimg/option_text.h>
 #include <pimg/progressive_image.h>
 
-#include "output.h"
+#include "session/output.h"
 #include "worker.h"
 
 namespace pimgview {

@@ -9,7 +9,7 @@
 #include <pimg/labels.h>
 
 #include "command_line.h"
-#include "pimg_file.h"
+#include "session/pimg_file.h"
 
 namespace pimgview {
 

@@ -15,7 +15,7 @@
 
 #include <pimg/detail/format.h>
 
-#include "output.h"
+#include "session/output.h"
 
 namespace pimgview {
 

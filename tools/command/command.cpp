@@ -2,7 +2,7 @@
 // The grammar, in one loop over the arguments. OpenImageIO's ArgParse is not used: it would hand over every
 // `--op:key=value` unparsed and its help knows nothing of keys, so what it takes off us is less than the adapting
 // costs, while one table of our own serves parsing, checks, --help, manual and completion alike.
-#include "command.h"
+#include "command/command.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "help.h"
+#include "command/help.h"
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@
 #include <pimg/detail/format.h>
 #include <pimg/version.h>
 
-#include "command.h"
+#include "command/command.h"
 
 namespace pimg {
 

@@ -8,8 +8,8 @@
 
 #include <pimg/detail/format.h>
 
-#include "colour.h"
-#include "rows.h"
+#include "command/rows.h"
+#include "session/colour.h"
 
 namespace pimg {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shot.h"
+#include "session/shot.h"
 
 #include <cmath>
 #include <cstdio>

@@ -12,10 +12,10 @@
 #include <OpenImageIO/imagebuf.h>
 #include <pimg/progressive_image.h>
 
-#include "output.h"
-#include "pimg_file.h"
-#include "shot.h"
-#include "stats.h"
+#include "session/output.h"
+#include "session/pimg_file.h"
+#include "session/shot.h"
+#include "session/stats.h"
 
 namespace pimgtool {
 

@@ -11,7 +11,7 @@
 #include <pimg/option_text.h>
 #include <pimg/options.h>
 
-#include "stack.h"
+#include "session/stack.h"
 
 namespace pimgtool {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "progress_bar.h"
+#include "session/progress_bar.h"
 
 #include <algorithm>
 #include <cstdio>

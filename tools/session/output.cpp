@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "output.h"
+#include "session/output.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,8 +19,8 @@
 #include <pimg/detail/safe_file.h>
 #include <pimg/labels.h>
 
-#include "colour.h"
-#include "pimg_file.h"
+#include "session/colour.h"
+#include "session/pimg_file.h"
 
 namespace pimgtool {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "stack.h"
+#include "session/stack.h"
 
 #include <cstdio>
 
@@ -11,8 +11,8 @@
 #include <pimg/imagebufalgo.h>
 #include <pimg/labels.h>
 
-#include "colour.h"
-#include "progress_bar.h"
+#include "session/colour.h"
+#include "session/progress_bar.h"
 
 namespace pimgtool {
 

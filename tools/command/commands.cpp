@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "help.h"
-#include "rows.h"
+#include "command/help.h"
+#include "command/rows.h"
 
 namespace pimgtool {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "stats.h"
+#include "session/stats.h"
 
 #include <sys/resource.h>
 

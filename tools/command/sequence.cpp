@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sequence.h"
+#include "command/sequence.h"
 
 #include <algorithm>
 #include <atomic>
@@ -14,7 +14,7 @@
 
 #include <pimg/detail/format.h>
 
-#include "progress_bar.h"
+#include "session/progress_bar.h"
 
 namespace pimgtool {
 

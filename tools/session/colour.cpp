@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "colour.h"
+#include "session/colour.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -8,9 +8,9 @@
 
 #include <pimg/detail/format.h>
 
-#include "output.h"
-#include "pimg_file.h"
-#include "rows.h"
+#include "command/rows.h"
+#include "session/output.h"
+#include "session/pimg_file.h"
 
 namespace pimgtool {
 

@@ -5,9 +5,9 @@
 #include <pimg/detail/format.h>
 #include <pimg/version.h>
 
-#include "command.h"
-#include "help.h"
-#include "output.h"
+#include "command/command.h"
+#include "command/help.h"
+#include "session/output.h"
 
 namespace pimgtool {
 

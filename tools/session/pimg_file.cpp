@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pimg_file.h"
+#include "session/pimg_file.h"
 
 #include <vector>
 

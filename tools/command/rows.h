@@ -7,7 +7,7 @@
 
 #include <pimg/filter_table.h>
 
-#include "command.h"
+#include "command/command.h"
 
 namespace pimgtool {
 
