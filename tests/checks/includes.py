@@ -29,13 +29,14 @@ ROOMS = {
                         "core"],
     "filters/src": ["filters", "core"],
     "umbrella": ["filters", "painting", "codec", "core"],
+    "gainmap": ["filters", "core"],
     "plugin": ["filters", "codec", "core"],
-    "tools/session": ["tools/session/shot", "plugin", "filters", "codec", "core"],
+    "tools/session": ["tools/session/shot", "gainmap", "plugin", "filters", "codec", "core"],
     "tools/command": ["tools/session", "plugin", "filters", "codec", "core"],
     "tools": ["tools/command", "tools/session", "plugin", "filters", "codec", "core"],
     "view/src": ["tools", "plugin", "filters", "codec", "core"],
     "view/window": ["view/src", "tools", "plugin", "filters", "codec", "core"],
-    "python": ["plugin", "filters", "codec", "core"],
+    "python": ["gainmap", "plugin", "filters", "codec", "core"],
     "capi": ["filters", "core"],
     "gegl": ["filters", "core"],
     "tools/session/shot": ["filters", "core"],
@@ -44,12 +45,12 @@ ROOMS = {
     "ofx/test_host": ["ofx/ofx_abi"],
     "examples": ["filters", "core", "capi"],
     "bench": ["filters", "painting", "codec", "core"],
-    "tests": ["plugin", "tools", "view", "filters", "painting", "codec", "core", "capi"],
+    "tests": ["gainmap", "plugin", "tools", "view", "filters", "painting", "codec", "core", "capi"],
 }
 
 # Where a public header without a source of the same name is: in the lowest room of its library, or here.
 LOWEST = {"core": "core/src/mesh", "codec": "codec/include", "filters": "filters/src/base", "painting": "painting",
-          "capi": "capi"}
+          "gainmap": "gainmap", "capi": "capi"}
 HEADERS = {
     "filters/include/pimg/pimg.hpp": "umbrella",
     "filters/include/pimg/imagebufalgo.h": "filters/src/ops",
@@ -71,6 +72,7 @@ FOREIGN = {
     "painting": [],
     "filters": ["OpenImageIO", "hwy"],
     "filters/src/colour": ["OpenImageIO", "hwy", "OpenColorIO", "lcms2.h"],
+    "gainmap": ["OpenImageIO", "pugixml.hpp"],
     "plugin": ["OpenImageIO"],
     "tools": ["OpenImageIO", "boost"],
     "view/src": ["OpenImageIO"],
@@ -90,7 +92,7 @@ PLATFORM = {"unistd.h", "fcntl.h", "sys", "signal.h", "malloc.h", "dlfcn.h"}
 C = {"assert.h", "float.h", "limits.h", "math.h", "stdarg.h", "stdbool.h", "stddef.h", "stdint.h", "stdio.h",
      "stdlib.h", "string.h"}
 INCLUDE = re.compile(r'\s*#\s*include\s*(?:<([^>]+)>|"([^"]+)")')
-LIBRARIES = ("core", "codec", "painting", "filters", "capi")
+LIBRARIES = ("core", "codec", "painting", "filters", "gainmap", "capi")
 
 
 def longest_prefix(path, names):

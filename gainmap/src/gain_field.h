@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From two renditions of a picture to the gains between them, and back.
+#pragma once
+
+#include <vector>
+
+#include <OpenImageIO/imagebuf.h>
+#include <pimg/gain_map.h>
+
+#include "gain_metadata.h"
+
+namespace pimg {
+
+/// Display-linear RGB, row by row, three samples a pixel.
+struct Light {
+    int width = 0, height = 0;
+    std::vector<float> rgb;
+};
+
+/// A map of 1 or 3 channels, 0..1, and its numbers.
+struct GainMap {
+    GainMetadata metadata;
+    OIIO::ImageBuf pixels;
+};
+
+/// The map that comes closest, in the mean square of stops, to making `rendition` of `base` once it is interpolated to the
+/// size of both. Its headroom is that of the brightest 0.1 % of the rendition's pixels.
+GainMap make_gain_map(const Light& base, const Light& rendition, const GainMapOptions& options);
+
+/// Changes `light`, the base, to what a display with `headroom` stops above SDR white shows; the whole rendition if that
+/// is below 0. The map's samples are interpolated linearly between their centres.
+void apply_gain_map(const OIIO::ImageBuf& map, const GainMetadata& metadata, double headroom, Light& light);
+
+}  // namespace pimg
