@@ -5,6 +5,8 @@
 
 #include <OpenImageIO/strutil.h>
 
+#include <pimg/gain_map.h>
+
 #include "pimg_pvt.h"
 #include "texts.h"
 
@@ -134,10 +136,12 @@ std::vector<OptionInfo> options_of(const std::string& name)
         options[0].default_value = "full";
         return options;
     }
+    if (name == "gain_map_jpeg")
+        return describe_options<GainMapOptions>();
     std::string error;
     const Filter* filter = find_filter(name == "resolve_hdr_compress" ? "hdr_compress" : name, error);
     if (filter == nullptr)
-        throw py::value_error(error + ", build, open, save");
+        throw py::value_error(error + ", build, open, save, gain_map_jpeg");
     return filter->options();
 }
 

@@ -21,7 +21,7 @@ OptionTexts to_texts(const py::kwargs& arguments, const std::vector<OptionInfo>&
 /// [{"name": "beta", "type": "float", "default": 10.0, "min": 0.0, ...}]; None for what there is not.
 py::list to_list(const std::vector<OptionInfo>& options);
 
-/// The options of a filter, of "build" or "open", of "save". ValueError for other names.
+/// The options of a filter, of "build" or "open", of "save", of "gain_map_jpeg". ValueError for other names.
 std::vector<OptionInfo> options_of(const std::string& name);
 
 /// The docstring of a function: "name(first, *, key=default, ...)\n--\n\n", which is where inspect.signature() finds

@@ -17,12 +17,15 @@ __version__: str
 
 def filters() -> list[str]: ...
 def options(name: str) -> list[dict[str, Any]]: ...
+def gain_map_rendition(file: bytes, *, headroom: float = ..., array: bool = ...) -> Any: ...
 def srgb_encoded(src: Picture, *, nthreads: int = ...) -> Picture: ...
 '''
 
 PLAIN = {"flag": "bool", "int": "int", "float": "float", "string": "str | PathLike[str] | Sequence[float]"}
 OTHERS = {
     "src": "Picture",
+    "base": "bytes",
+    "rendition": "Any",
     "path": "str | PathLike[str]",
     "roi": "Roi | None",
     "nthreads": "int",
@@ -59,6 +62,8 @@ def stub(pimg):
     lines = [HEAD]
     for name, returns in (("build", "ProgressiveImage[Picture]"), ("open", "ProgressiveImage[Any]")):
         lines.append(f"def {name}({parameters(getattr(pimg, name), pimg.options('build'), 'Picture')}) -> {returns}: ...")
+    keys = parameters(pimg.gain_map_jpeg, pimg.options("gain_map_jpeg"), "")
+    lines.append(f"def gain_map_jpeg({keys}) -> bytes: ...")
     for name in pimg.filters():
         for source in ("ProgressiveImage[Picture]", "Picture"):
             signature = parameters(getattr(pimg, name), pimg.options(name), source)

@@ -7,6 +7,7 @@
 #include <pimg/version.h>
 
 #include "docs.h"
+#include "gain_map.h"
 #include "pimg_pvt.h"
 #include "progressive.h"
 
@@ -147,6 +148,7 @@ Filters are methods; results are of the kind of the source. May be used from sev
     add_building(module);
     add_filters(module, progressive);
     add_progressive(progressive);
+    add_gain_maps(module);
     module.def("srgb_encoded", encode_srgb, py::arg("src"), py::kw_only(), py::arg("nthreads") = 0,
                R"(srgb_encoded(src, *, nthreads=0)
 --
@@ -157,7 +159,7 @@ Linear light for screens and 8-bit files, as float: colours in Rec. 709, whateve
         R"(options(name)
 --
 
-The options of a filter, of "build", "open" or "save", as sliders and dialogs need them.
+The options of a filter, of "build", "open", "save" or "gain_map_jpeg", as sliders and dialogs need them.
 
 A list of dicts with name, type, default, min, max, choices, unit and help; None for what there is not.)");
     module.def("filters", filter_names, R"(filters()

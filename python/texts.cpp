@@ -71,6 +71,17 @@ When all frames of a shot are made with the values of one frame, the shot does n
       { "nthreads" },
       "dict",
       kFilterErrors },
+    { "gain_map_jpeg",
+      R"(A JPEG file that shows its base on SDR displays and an HDR rendition on HDR displays (ISO 21496-1).
+
+base is an ordinary JPEG file, whole, as bytes; its pixels stay as they are. rendition is the HDR picture,
+display-linear with the white of SDR at 1, as large as the base: an OpenImageIO.ImageBuf or an array. The
+GIL is released.)",
+      {},
+      "bytes",
+      R"(ValueError
+    if the base is no JPEG file, has a gain map already or differs in size, or an option is out of range
+)" },
     { "hdr_compress",
       R"(Compresses the range of luminance of a scene to that of a display (paper, section 5.1).
 

@@ -73,36 +73,27 @@ std::vector<double> fit(const std::vector<double>& fine, const LinearAxis& acros
     return result;
 }
 
-GainChannel range_of(const std::vector<double>& stops)
-{
-    const auto [least, most] = std::minmax_element(stops.begin(), stops.end());
-    GainChannel channel;
-    channel.min = *least;
-    channel.max = *most;
-    return channel;
-}
-
 }  // namespace
 
 GainMap make_gain_map(const Light& base, const Light& rendition, const GainMapOptions& options)
 {
     const LinearAxis across(base.width, options.scale), down(base.height, options.scale);
     GainMap map;
-    map.metadata.channels = options.channels;
     map.metadata.alternate_headroom = headroom_of(rendition);
     map.pixels.reset(OIIO::ImageSpec(across.coarse(), down.coarse(), options.channels, OIIO::TypeFloat));
-    float* pixels = static_cast<float*>(map.pixels.localpixels());
+    std::vector<std::vector<double>> stops;
+    GainChannel range;
     for (int c = 0; c < options.channels; ++c) {
-        const std::vector<double> stops = fit(gains(base, rendition, c, options.channels), across, down);
-        const GainChannel channel = range_of(stops);
-        map.metadata.channel[std::size_t(c)] = channel;
-        const double range = channel.max - channel.min;
-        for (std::size_t i = 0; i < stops.size(); ++i)
-            pixels[i * std::size_t(options.channels) + std::size_t(c)] =
-                range > 0.0 ? float((stops[i] - channel.min) / range) : 0.0f;
+        stops.push_back(fit(gains(base, rendition, c, options.channels), across, down));
+        const auto [least, most] = std::minmax_element(stops.back().begin(), stops.back().end());
+        range.min = c == 0 ? *least : std::min(range.min, *least);
+        range.max = c == 0 ? *most : std::max(range.max, *most);
     }
-    if (options.channels == 1)
-        map.metadata.channel[1] = map.metadata.channel[2] = map.metadata.channel[0];
+    map.metadata.channel.fill(range);
+    float* sample = static_cast<float*>(map.pixels.localpixels());
+    for (std::size_t i = 0; i < stops[0].size(); ++i)
+        for (const std::vector<double>& of_channel : stops)
+            *sample++ = range.max > range.min ? float((of_channel[i] - range.min) / (range.max - range.min)) : 0.0f;
     return map;
 }
 

@@ -35,7 +35,7 @@ std::string iso_gain_metadata(const GainMetadata& metadata);
 std::string iso_gain_version();
 bool parse_iso_gain_metadata(std::string_view bytes, GainMetadata& metadata, std::string& error);
 
-/// The XMP packet of the gain map.
+/// The XMP packet of the gain map. The numbers of the first channel hold for all.
 std::string xmp_gain_metadata(const GainMetadata& metadata);
 bool parse_xmp_gain_metadata(std::string_view packet, GainMetadata& metadata, std::string& error);
 

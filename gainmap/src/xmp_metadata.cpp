@@ -24,11 +24,15 @@ constexpr const char* kChannelProperties[] = { "GainMapMin", "GainMapMax", "Gamm
 double GainChannel::*const kChannelMembers[] = { &GainChannel::min, &GainChannel::max, &GainChannel::gamma,
                                                  &GainChannel::base_offset, &GainChannel::alternate_offset };
 
+// ISO 16684-1, 7.3.2: what marks a packet, and that it is not to be changed in place.
+const std::string kPacketBegin = "<?xpacket begin=\"\xEF\xBB\xBF\" id=\"W5M0MpCehiHzreSzNTczkc9d\"?>";
+const std::string kPacketEnd = "<?xpacket end=\"r\"?>";
+
 std::string text_of(const pugi::xml_document& document)
 {
     std::ostringstream text;
-    document.save(text, "", pugi::format_raw | pugi::format_no_declaration);
-    return text.str();
+    document.child("x:xmpmeta").print(text, "", pugi::format_raw);
+    return kPacketBegin + text.str() + kPacketEnd;
 }
 
 /// An empty packet's <rdf:RDF>.
@@ -131,19 +135,9 @@ std::string xmp_gain_metadata(const GainMetadata& metadata)
     description.append_attribute("hdrgm:BaseRenditionIsHDR") = "False";
     description.append_attribute("hdrgm:HDRCapacityMin") = format("{:.6f}", metadata.base_headroom).c_str();
     description.append_attribute("hdrgm:HDRCapacityMax") = format("{:.6f}", metadata.alternate_headroom).c_str();
-    for (std::size_t p = 0; p < std::size(kChannelProperties); ++p) {
-        const std::string name = std::string("hdrgm:") + kChannelProperties[p];
-        const auto text = [&](std::size_t c) {
-            return format("{:.6f}", metadata.channel[c].*kChannelMembers[p]);
-        };
-        if (metadata.channels == 1) {
-            description.append_attribute(name.c_str()) = text(0).c_str();
-            continue;
-        }
-        pugi::xml_node sequence = description.append_child(name.c_str()).append_child("rdf:Seq");
-        for (std::size_t c = 0; c < 3; ++c)
-            sequence.append_child("rdf:li").text() = text(c).c_str();
-    }
+    for (std::size_t p = 0; p < std::size(kChannelProperties); ++p)
+        description.append_attribute((std::string("hdrgm:") + kChannelProperties[p]).c_str()) =
+            format("{:.6f}", metadata.channel[0].*kChannelMembers[p]).c_str();
     return text_of(document);
 }
 
@@ -178,7 +172,7 @@ std::string xmp_with_directory(std::string_view packet, std::size_t gain_map_siz
 {
     pugi::xml_document document;
     pugi::xml_node rdf;
-    if (!packet.empty() && document.load_buffer(packet.data(), packet.size(), pugi::parse_default | pugi::parse_pi))
+    if (!packet.empty() && document.load_buffer(packet.data(), packet.size()) && document.child("x:xmpmeta"))
         rdf = document.find_node([](const pugi::xml_node& node) { return std::string_view(node.name()) == "rdf:RDF"; });
     if (!rdf)
         rdf = start_packet(document);
