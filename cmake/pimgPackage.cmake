@@ -19,7 +19,7 @@ function(pimg_debian_package component package section summary text)
     # Every package brings the licence and its history, as Debian's policy asks.
     set(documents "${CMAKE_INSTALL_DATADIR}/doc/${package}")
     install(FILES "${PROJECT_BINARY_DIR}/packaging/copyright" DESTINATION "${documents}" COMPONENT ${component})
-    install(FILES "${PROJECT_BINARY_DIR}/packaging/changelog.Debian.gz" DESTINATION "${documents}"
+    install(FILES "${PROJECT_BINARY_DIR}/packaging/changelog.gz" DESTINATION "${documents}"
             COMPONENT ${component})
     install(FILES "${PROJECT_SOURCE_DIR}/packaging/overrides/${package}" OPTIONAL
             DESTINATION "${CMAKE_INSTALL_DATADIR}/lintian/overrides" COMPONENT ${component})
@@ -44,9 +44,9 @@ if(NOT DEFINED ENV{SOURCE_DATE_EPOCH})
 endif()
 string(TIMESTAMP PIMG_CHANGELOG_DATE "%a, %d %b %Y %H:%M:%S +0000" UTC)
 configure_file("${PROJECT_SOURCE_DIR}/packaging/copyright.in" "${PROJECT_BINARY_DIR}/packaging/copyright" @ONLY)
-configure_file("${PROJECT_SOURCE_DIR}/packaging/changelog.in" "${PROJECT_BINARY_DIR}/packaging/changelog.Debian" @ONLY)
+configure_file("${PROJECT_SOURCE_DIR}/packaging/changelog.in" "${PROJECT_BINARY_DIR}/packaging/changelog" @ONLY)
 # -n: neither name nor time goes in, so that two builds make the same package.
-execute_process(COMMAND gzip -9 -n -f -k "${PROJECT_BINARY_DIR}/packaging/changelog.Debian" COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND gzip -9 -n -f -k "${PROJECT_BINARY_DIR}/packaging/changelog" COMMAND_ERROR_IS_FATAL ANY)
 
 set(packages "")
 pimg_debian_package(runtime libpimg0 libs "progressive images for OpenImageIO: C library"
@@ -55,18 +55,18 @@ pimg_debian_package(dev libpimg-dev libdevel "progressive images for OpenImageIO
     "Headers, the C++ libraries pimg::core, pimg::codec, pimg::painting and\npimg::filters, and the files for CMake and pkg-config."
     "libpimg0 (= ${PROJECT_VERSION})" "libopenimageio-dev" "openimageio-tools" "libopencolorio-dev" "libhwy-dev" "libpugixml-dev" "libzstd-dev")
 pimg_debian_package(tools pimg-tools graphics "progressive images for OpenImageIO: command line"
-    "pimgtool tone-maps, smooths, segments and paints pictures of every format that\nOpenImageIO reads. The package also tells desktops what .pimg files are and shows\nthumbnails of them.")
+    "pimgtool tone-maps, smooths, segments and paints pictures of every format that\nOpenImageIO reads. The package also tells desktops what .pimg files are and\nshows thumbnails of them.")
 pimg_debian_package(plugin openimageio-plugin-pimg graphics "progressive images for OpenImageIO: file format plugin"
-    "Lets every program that uses OpenImageIO ${PIMG_OIIO_MINOR} read and write .pimg files.\nDebian's OpenImageIO has no folder for plugins of its own: /etc/profile.d/pimg.sh\nnames ours in OIIO_LIBRARY_PATH at the next login.")
+    "Lets every program that uses OpenImageIO ${PIMG_OIIO_MINOR} read and write .pimg files.\nDebian's OpenImageIO has no folder for plugins of its own:\n/etc/profile.d/pimg.sh names ours in OIIO_LIBRARY_PATH at the next login.")
 if(TARGET pimg_python)
     pimg_debian_package(python python3-pimg python "progressive images for OpenImageIO: Python 3 module"
         "Filters on NumPy arrays and on ImageBufs of Python's OpenImageIO."
-        "python3 (>= ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR})" "python3-numpy")
+        "python3 (>= ${PIMG_PYTHON_VERSION})" "python3 (<< ${PIMG_PYTHON_NEXT})" "python3-numpy")
     set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-openimageio")
 endif()
 if(TARGET pimg_gegl)
     pimg_debian_package(gegl gegl-plugin-pimg graphics "progressive images for OpenImageIO: operations for GEGL"
-        "GEGL, and programs that use it such as GIMP, find these operations by themselves.")
+        "GEGL, and programs that use it such as GIMP, find these operations by\nthemselves.")
 endif()
 set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS "openimageio-plugin-pimg, openimageio-tools")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS "python3-pimg")
@@ -88,5 +88,6 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/packaging/conffiles")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/packaging/triggers")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 include(CPack)
