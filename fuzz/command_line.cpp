@@ -6,7 +6,7 @@
 
 #include <pimg/detail/format.h>
 
-#include "sequence.h"
+#include "command/sequence.h"
 #include "taken.h"
 
 using namespace pimgtool;

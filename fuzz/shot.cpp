@@ -9,7 +9,7 @@
 
 #include <pimg/detail/format.h>
 
-#include "shot.h"
+#include "session/shot.h"
 #include "taken.h"
 
 using namespace pimgtool;
