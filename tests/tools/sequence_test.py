@@ -152,6 +152,51 @@ class Shots(pictures.ToolTest):
         with open("views.json", encoding="utf-8") as file:
             self.assertEqual([frame["frame"] for frame in json.load(file)["frames"]], [0, 0])
 
+    def shot(self, lights, *keys):
+        """Means of L* of a room rendered as a shot whose frames have these shares of its light."""
+        for frame, light in enumerate(lights):
+            pictures.write(f"ev.{frame:04d}.exr", pictures.hdr_scene(48, 36) * light, "float")
+        option = ":".join(("--shot-stats:update=1", *keys))
+        self.ok("--frames", f"0-{len(lights) - 1}", "ev.#.exr", "--hdr-compress", option, "events.json",
+                "-o", "events.#.exr")
+        return np.array([lightness(f"events.{frame:04d}.exr").mean() for frame in range(len(lights))])
+
+    def test_a_black_frame_changes_no_other(self):
+        alone = self.shot([1])[0]
+        for mode in ("mode=smooth", "mode=lock"):
+            means = self.shot([1, 1, 1, 1, 0, 1, 1, 1, 1], mode)
+            self.assertLess(means[4], 1)
+            self.assertLess(np.abs(np.delete(means, 4) - alone).max(), 0.5, mode)
+        with open("events.json", encoding="utf-8") as file:
+            frames = json.load(file)["frames"]
+        self.assertEqual([frame["key"] for frame in frames if frame["frame"] == 4], [0])  # not measured
+        self.assertEqual(self.shot([0, 0])[0], 0)  # nothing but black is no error
+
+    def test_a_fade_darkens(self):
+        alone = self.shot([1])[0]
+        for frames in (6, 16):
+            lights = np.linspace(1, 0, frames)
+            means = self.shot([1, 1, 1, *lights])
+            self.assertLess(np.diff(means[3:]).max(), -0.3)
+            self.assertLess(abs(means[3] - alone), 1)
+            self.assertLess(np.abs(self.shot([*lights[::-1], 1, 1, 1]) - means[::-1]).max(), 0.1)
+
+    def test_a_flash_changes_no_other_frame(self):
+        alone = self.shot([1])[0]
+        means = self.shot([1, 1, 1, 1, 8, 1, 1, 1, 1, 1])
+        self.assertLess(np.abs(np.delete(means, 4) - alone).max(), 0.5)
+        self.assertGreater(means[4], alone + 3)
+
+    def test_scenes_have_their_own_exposure(self):
+        alone = self.shot([1])[0]
+        lights = [1] * 6 + [16] * 6
+        for keys in ((), ("cuts=6",), ("mode=lock",)):
+            self.assertLess(np.abs(self.shot(lights, *keys) - alone).max(), 0.5, keys)
+        one = self.shot(lights, "cuts=none")
+        self.assertGreater(one[6] - one[5], 3)
+        self.fails("--frames", "0-1", "ev.#.exr", "--hdr-compress", "--shot-stats:cuts=soon", "e.json", "-o", "e.#.exr",
+                   says=("cuts=", "soon", "expected"))
+
     def farmed(self, script, environment, *arguments):
         done = subprocess.run([os.path.join(FARM, script), *arguments], text=True, timeout=100, check=False,
                               capture_output=True, env={**os.environ, **environment, "PIMGTOOL": pictures.TOOL})

@@ -145,7 +145,7 @@ bool shot_stats(const Call& call, Program& settings, std::string& error)
 {
     settings.shot_file = call.words[0];
     if (!settings.shot_file.empty() && !OIIO::Filesystem::is_directory(settings.shot_file))
-        return pimg::set_options(settings.shot, call.keys, error);
+        return pimg::set_options(settings.shot, call.keys, error) && Shot::check_cuts(settings.shot.cuts, error);
     error = format("\"{}\": expected a file's name", settings.shot_file);
     return false;
 }

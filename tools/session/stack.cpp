@@ -223,7 +223,11 @@ bool Session::hdr_compress(pimg::HdrCompressOptions options)
     if (measuring) {
         if (!iba::resolve_hdr_compress(*top().pixels, options, m_error, top().hierarchy->options))
             return false;
-        anchors = { options.dmax, options.key, options.white };
+        float light = 0.0f;
+        if (!median_light(*top().pixels, top().hierarchy->options.incolorspace, light, m_error))
+            return false;
+        if (light > 0.0f)  // else nothing was measured
+            anchors = { options.dmax, options.key, options.white, light };
         return measured = true;
     }
     anchors.apply(options);
