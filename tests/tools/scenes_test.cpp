@@ -17,6 +17,7 @@ constexpr double kBlack = -1000.0;
 std::string roles(const std::vector<double>& stops, const std::vector<int>& told = {}, bool finds_cuts = true)
 {
     std::vector<FrameFigures> frames;
+    frames.reserve(stops.size());
     for (const double s : stops)
         frames.push_back(
             { int(frames.size()) + 1, s == kBlack ? std::vector<double>() : std::vector<double> { s, 1.0 } });
@@ -29,6 +30,7 @@ std::string roles(const std::vector<double>& stops, const std::vector<int>& told
 TEST(Scenes, DriftAndSwingAreNoEvent)
 {
     std::vector<double> stops;
+    stops.reserve(40);
     for (int i = 0; i < 40; ++i)
         stops.push_back(0.03 * i + 0.15 * std::sin(i / 3.0));
     EXPECT_EQ(roles(stops), std::string(40, '0'));
