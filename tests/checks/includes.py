@@ -28,7 +28,7 @@ ROOMS = {
     "filters/src/ops": ["filters/src/base", "filters/src/colour", "filters/src/source", "filters/src/frame", "painting",
                         "core"],
     "filters/src": ["filters", "core"],
-    "umbrella": ["filters", "painting", "codec", "core"],
+    "umbrella": ["gainmap", "filters", "painting", "codec", "core"],
     "gainmap": ["filters", "core"],
     "plugin": ["filters", "codec", "core"],
     "tools/session": ["tools/session/shot", "tools/session/scenes", "gainmap", "plugin", "filters", "codec", "core"],

@@ -12,6 +12,7 @@
 #include <pimg/dual_pieces.h>
 #include <pimg/filter_forms.h>
 #include <pimg/filter_table.h>
+#include <pimg/gain_map.h>
 #include <pimg/guide.h>
 #include <pimg/hierarchy.h>
 #include <pimg/imagebufalgo.h>
