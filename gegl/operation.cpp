@@ -141,6 +141,8 @@ void get_property(GObject* object, guint id, GValue* value, GParamSpec* spec)
     }
 }
 
+gpointer parent_class = nullptr;
+
 // ---- pixels -----------------------------------------------------------------------------------------------
 
 /// Linear light with associated alpha, in the primaries of the input: what OpenImageIO and pimg mean by RGBA.
@@ -161,14 +163,27 @@ GeglRectangle whole_input(GeglOperation* operation)
     return box != nullptr ? *box : GeglRectangle { 0, 0, 0, 0 };
 }
 
-GeglRectangle get_required_for_output(GeglOperation* operation, const gchar*, const GeglRectangle*)
+/// Whether there is a picture of some size: patterns such as gegl:checkerboard have no end, and some inputs are empty.
+bool is_picture(const GeglRectangle& box)
 {
-    return whole_input(operation);
+    return box.width > 0 && box.height > 0 && !gegl_rectangle_is_infinite_plane(&box);
 }
 
-GeglRectangle get_cached_region(GeglOperation* operation, const GeglRectangle*)
+/// All of the picture; of what is none, which is passed on, only what is asked for.
+GeglRectangle needed(GeglOperation* operation, const GeglRectangle* roi)
 {
-    return whole_input(operation);
+    const GeglRectangle box = whole_input(operation);
+    return is_picture(box) ? box : *roi;
+}
+
+GeglRectangle get_required_for_output(GeglOperation* operation, const gchar*, const GeglRectangle* roi)
+{
+    return needed(operation, roi);
+}
+
+GeglRectangle get_cached_region(GeglOperation* operation, const GeglRectangle* roi)
+{
+    return needed(operation, roi);
 }
 
 GeglRectangle get_invalidated_by_change(GeglOperation* operation, const gchar*, const GeglRectangle*)
@@ -243,9 +258,21 @@ gboolean process(GeglOperation* operation, GeglBuffer* input, GeglBuffer* output
     return FALSE;
 }
 
-// ---- classes ----------------------------------------------------------------------------------------------
+/// process(), or for an input without end or without pixels that input itself.
+gboolean process_or_pass(GeglOperation* operation, GeglOperationContext* context, const gchar* property,
+                         const GeglRectangle* roi, gint level)
+{
+    if (is_picture(whole_input(operation)))
+        return GEGL_OPERATION_CLASS(parent_class)->process(operation, context, property, roi, level);
+    g_message("%s: passes its input on, which has no size: expected a picture, such as gegl:crop before it makes",
+              GEGL_OPERATION_GET_CLASS(operation)->name);
+    GObject* input = gegl_operation_context_get_object(context, "input");
+    if (input != nullptr)
+        gegl_operation_context_take_object(context, "output", G_OBJECT(g_object_ref(input)));
+    return TRUE;
+}
 
-gpointer parent_class = nullptr;
+// ---- classes ----------------------------------------------------------------------------------------------
 
 void finalize(GObject* object)
 {
@@ -283,6 +310,7 @@ void init_class(gpointer klass, gpointer filter)
     operation->get_required_for_output = get_required_for_output;
     operation->get_cached_region = get_cached_region;
     operation->get_invalidated_by_change = get_invalidated_by_change;
+    operation->process = process_or_pass;
     operation->threaded = FALSE;  // threads are the filter's
     GEGL_OPERATION_FILTER_CLASS(klass)->process = process;
     // No licence: GEGL hides operations that state one it does not list.

@@ -71,6 +71,14 @@ class Gegl(pictures.ToolTest):
         result = self.gegl("alpha.exr", "pimg:hdr-compress")
         self.assertLess(np.median(np.abs(result - read("tool.exr"))), 1e-3)
 
+    def test_inputs_without_a_size_are_passed_on(self):
+        for name in ("hdr-compress", "level"):
+            done = run("-o", "out.png", "--", "gegl:checkerboard", "pimg:" + name, "gegl:crop", "width=60", "height=40")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("gegl:crop before it", done.stderr + done.stdout)
+            run("-o", "plain.png", "--", "gegl:checkerboard", "gegl:crop", "width=60", "height=40")
+            self.assertTrue(np.array_equal(read("out.png"), read("plain.png")))
+
     def test_what_is_wrong_is_said(self):
         done = run("in.exr", "-o", "out.exr", "--", "pimg:paint", "brush=nowhere.png")
         self.assertIn("nowhere.png", done.stderr)
