@@ -11,7 +11,7 @@ readonly jobs=2
 packages=(
     g++ cmake ninja-build pkg-config
     libopenimageio-dev openimageio-tools libopencolorio-dev libimath-dev libopenexr-dev libopencv-dev
-    libhwy-dev libpugixml-dev libzstd-dev libboost-dev
+    libhwy-dev liblcms2-dev libpugixml-dev libzstd-dev libboost-dev
     python3-dev python3-zstandard python3-numpy python3-openimageio pybind11-dev
     python3-venv python3-matplotlib python3-markdown
     libgegl-dev gegl

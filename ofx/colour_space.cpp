@@ -25,7 +25,7 @@ bool is_managed(const Instance& instance)
 
 bool is_known(const std::string& space, const OIIO::TypeDesc& depth, pimg::Colour& colour, std::string& error)
 {
-    return pimg::Colour::resolve(OIIO::ImageSpec(1, 1, 3, depth), space, colour, error);
+    return pimg::Colour::resolve(OIIO::ImageSpec(1, 1, 3, depth), space, "", colour, error);
 }
 
 }  // namespace

@@ -226,7 +226,7 @@ bool ReadRequest::change_spec(ImageSpec& spec, std::string& error) const
         return true;
     if (m_bound.output == FilterOutput::light) {
         Colour colour;
-        if (!Colour::resolve(spec, build.incolorspace, colour, error))
+        if (!Colour::resolve(spec, build.incolorspace, build.layer, colour, error))
             return false;
         if (display)
             declare_space(spec, "sRGB");
@@ -252,7 +252,7 @@ bool ReadRequest::run(ImageBuf& dst, const ProgressiveImage& src, int nthreads) 
     if (!m_bound(dst, src, {}, nthreads) || (m_bound.output == FilterOutput::labels && !labels_to_float(dst)))
         return false;
     if (m_bound.output == FilterOutput::light && display)
-        dst = srgb_encoded(dst, nthreads);
+        dst = srgb_encoded(dst, nthreads, build.layer);
     return true;
 }
 

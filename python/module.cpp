@@ -100,13 +100,13 @@ void add_progressive(py::class_<Progressive>& type)
     });
 }
 
-py::object encode_srgb(const py::object& src, int nthreads)
+py::object encode_srgb(const py::object& src, int nthreads, const std::string& layer)
 {
     const Picture picture = to_picture(src);
     OIIO::ImageBuf result;
     {
         const py::gil_scoped_release released;
-        result = srgb_encoded(*picture.pixels, nthreads);
+        result = srgb_encoded(*picture.pixels, nthreads, layer);
     }
     if (result.has_error())
         throw py::value_error(result.geterror());
@@ -150,10 +150,12 @@ Filters are methods; results are of the kind of the source. May be used from sev
     add_progressive(progressive);
     add_gain_maps(module);
     module.def("srgb_encoded", encode_srgb, py::arg("src"), py::kw_only(), py::arg("nthreads") = 0,
-               R"(srgb_encoded(src, *, nthreads=0)
+               py::arg("layer") = "",
+               R"(srgb_encoded(src, *, nthreads=0, layer="")
 --
 
-Linear light for screens and 8-bit files, as float: colours in Rec. 709, whatever primaries the metadata say, encoded sRGB.)");
+Linear light for screens and 8-bit files, as float: colours in Rec. 709, whatever primaries the metadata say,
+encoded sRGB. `layer` says which channels are the picture, as in build().)");
     module.def(
         "options", [](const std::string& name) { return to_list(options_of(name)); }, py::arg("name"),
         R"(options(name)

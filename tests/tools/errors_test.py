@@ -53,12 +53,6 @@ class Errors(pictures.ToolTest):
     def test_missing_channel(self):
         self.fails("in.png", "--ch", "R,Q", "-o", "out.png", says=("--ch", '"Q"', "R, G, B"))
 
-    def test_what_a_format_cannot_hold(self):
-        pictures.write("five.exr", np.dstack([pictures.hdr_scene(9, 9), pictures.hdr_scene(9, 9)[..., :2]]), "half",
-                       names=("R", "G", "B", "A", "Z"))
-        pictures.write("out.png", pictures.scene(5, 5), "uint8")
-        self.fails("five.exr", "-o", "out.png", says=("out.png", "5"))  # what was there stays
-
     def test_unreadable_configuration(self):
         self.fails("in.png", "--hdr-compress", "-o", "out.png", says="missing.ocio",
                    env={"OCIO": os.path.abspath("missing.ocio")})

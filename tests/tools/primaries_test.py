@@ -2,6 +2,7 @@
 """One scene, stored with several primaries and encodings, gives one picture."""
 
 import os
+import struct
 import unittest
 
 import numpy as np
@@ -143,6 +144,62 @@ class Names(PrimariesTest):
         for environment in ({}, {"OCIO": self.aces}):
             self.ok("wide.tif", "--build:incolorspace=srgb_rec2020", "--hdr-compress", "-o", "wide.png", env=environment)
             self.assert_codes("wide.png", "expected.png")
+
+
+def s15(value):
+    return struct.pack(">i", round(value * 65536))
+
+
+def icc_profile(primaries, gamma):
+    """The bytes of an ICC profile (version 2) for a display: matrix and gamma."""
+    to_d50 = np.linalg.inv(BRADFORD) @ np.diag(
+        (BRADFORD @ [0.9642, 1, 0.8249]) / (BRADFORD @ to_xyz(primaries)[1])) @ BRADFORD
+    colorants = to_d50 @ to_xyz(primaries)[0]
+    xyz = lambda v: b"XYZ \0\0\0\0" + b"".join(map(s15, v))
+    curve = b"curv\0\0\0\0" + struct.pack(">IH", 1, round(gamma * 256)) + b"\0\0"
+    text = b"desc\0\0\0\0" + struct.pack(">I", 5) + b"test\0" + bytes(79)
+    tags = {b"desc": text, b"cprt": b"text\0\0\0\0none\0\0\0\0", b"wtpt": xyz([0.9642, 1, 0.8249]),
+            b"rXYZ": xyz(colorants[:, 0]), b"gXYZ": xyz(colorants[:, 1]), b"bXYZ": xyz(colorants[:, 2]),
+            b"rTRC": curve, b"gTRC": curve, b"bTRC": curve}
+    table, body, at = b"", b"", 128 + 4 + 12 * len(tags)
+    for name, value in tags.items():
+        value += bytes(-len(value) % 4)
+        table += name + struct.pack(">II", at + len(body), len(value))
+        body += value
+    header = struct.pack(">I4sI4s4s4s", at + len(body), b"none", 0x02400000, b"mntr", b"RGB ", b"XYZ ") + bytes(12)
+    header += b"acsp" + bytes(28) + s15(0.9642) + s15(1) + s15(0.8249) + bytes(48)
+    return header + struct.pack(">I", len(tags)) + table + body
+
+
+class Profiles(PrimariesTest):
+    ADOBE = [0.64, 0.33, 0.21, 0.71, 0.15, 0.06, 0.3127, 0.3290]
+    PROPHOTO = [0.734699, 0.265301, 0.159597, 0.840403, 0.036598, 0.000105, 0.345704, 0.358540]
+
+    def test_pictures_with_icc_profiles(self):
+        dim = patches() / 24
+        self.write("dim.exr", dim, PRIMARIES["lin_rec709"])
+        pictures.write("grey.png", encoded(dim), "uint16")
+        self.ok("dim.exr", "--hdr-compress", "-o", "expected.png", "grey.png", "--hdr-compress", "-o", "srgb.png")
+        self.assert_codes("srgb.png", "expected.png", 3)
+        for primaries, gamma in ((self.ADOBE, 563 / 256), (self.PROPHOTO, 1.8)):
+            stored = np.clip(dim @ matrix(PRIMARIES["lin_rec709"], primaries).T, 0, 1) ** (1 / gamma)
+            profile = np.frombuffer(icc_profile(primaries, gamma), dtype=np.uint8)
+            for name, kind in (("icc.tif", "uint16"), ("icc.png", "uint16"), ("icc8.png", "uint8"), ("icc.jpg", "uint8")):
+                spec = oiio.ImageSpec(128, 96, 3, kind)
+                spec.attribute("ICCProfile", oiio.TypeDesc(f"uint8[{len(profile)}]"), profile)
+                spec.attribute("Compression", "jpeg:100")
+                spec.attribute("jpeg:subsampling", "4:4:4")
+                picture = oiio.ImageBuf(spec)
+                picture.set_pixels(picture.roi, np.ascontiguousarray(stored, dtype=np.float32))
+                self.assertTrue(picture.write(name))
+                self.assertIn("ICCProfile", [a.name for a in spec_of(name).extra_attribs])
+                for environment in ({}, {"OCIO": self.aces}):
+                    with self.subTest(name=name, gamma=gamma, environment=environment):
+                        done = self.run_tool("-v", name, "--hdr-compress", "-o", "out.png", env=environment)
+                        self.assertEqual(done.returncode, 0, done.stderr)
+                        self.assertIn("ICC profile", done.stderr)
+                        mean = lambda f: codes(f).reshape(2, 48, 4, 32, 3)[:, 8:-8, :, 8:-8].mean((1, 3))
+                        self.assertLessEqual(np.abs(mean("out.png") - mean("expected.png")).max(), 2)
 
 
 class Encoding(pictures.ToolTest):

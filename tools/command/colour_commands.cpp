@@ -67,21 +67,35 @@ using pimg::format;
 bool convert_colours(Session& session, const OIIO::ColorProcessorHandle& processor, const std::string& space,
                      bool unpremult)
 {
+    const std::string layer = session.top().hierarchy->options.layer;
     const bool done = session.change_pixels([&](ImageBuf& dst, const ImageBuf& src) {
         if (!dst.copy(src, OIIO::TypeFloat))
             return false;
         declare_space(dst.specmod(), space);
+        pimg::Colour colour;
+        std::string error;
+        if (!pimg::Colour::resolve(src.spec(), "", layer, colour, error)) {
+            pimg::set_error(dst, error);
+            return false;
+        }
         std::vector<int> colours;
-        for (int c = 0; c < std::min(src.nchannels(), 4); ++c)
-            if (c < 3 ? c != src.spec().z_channel : c == src.spec().alpha_channel)
-                colours.push_back(c);
-        const ImageBuf some = OIIO::ImageBufAlgo::channels(dst, int(colours.size()), colours);
+        for (int i = 0; i < colour.count(); ++i)
+            colours.push_back(colour.channel(i));
+        if (colour.alpha() >= 0)
+            colours.push_back(colour.alpha());
+        ImageBuf some = OIIO::ImageBufAlgo::channels(dst, int(colours.size()), colours);
+        some.specmod().alpha_channel = colour.alpha() >= 0 ? colour.count() : -1;
         ImageBuf converted = OIIO::ImageBufAlgo::colorconvert(some, processor.get(), unpremult);
         if (converted.has_error()) {
             pimg::set_error(dst, converted.geterror());
             return false;
         }
-        return OIIO::ImageBufAlgo::paste(dst, dst.xbegin(), dst.ybegin(), dst.zbegin(), 0, converted);
+        for (std::size_t i = 0; i < colours.size(); ++i) {
+            const ImageBuf one = OIIO::ImageBufAlgo::channels(converted, 1, { int(i) });
+            if (!OIIO::ImageBufAlgo::paste(dst, dst.xbegin(), dst.ybegin(), dst.zbegin(), colours[i], one))
+                return false;
+        }
+        return true;
     });
     if (done)
         session.top().linear_light = false;  // converted as the user wants it
@@ -94,7 +108,7 @@ bool take_space(Session& session, std::string& space)
     pimg::Colour colour;
     std::string error;
     const ImageSpec& spec = session.top().pixels->spec();
-    if (!pimg::Colour::resolve(spec, "", colour, error))
+    if (!pimg::Colour::resolve(spec, "", session.top().hierarchy->options.layer, colour, error))
         return session.fail(error);
     space = convertible_space(colour);
     if (!colour.config_name().empty() || colour.count() < 3)
@@ -211,6 +225,19 @@ bool channels(Session& session, const Words& words)
     return done;
 }
 
+bool layer(Session& session, const Words& words)
+{
+    pimg::Colour colour;
+    std::string error;
+    if (!pimg::Colour::resolve(session.top().pixels->spec(), "", words[0], colour, error))
+        return session.fail(error);
+    auto hierarchy = std::make_shared<LazyHierarchy>();
+    hierarchy->options = session.top().hierarchy->options;
+    hierarchy->options.layer = words[0];
+    session.top().hierarchy = hierarchy;
+    return true;
+}
+
 bool colour_config_file(const Call& call, Program&, std::string& error)
 {
     return use_colour_config(call.words[0], error);
@@ -229,6 +256,8 @@ CommandGroup colour_group()
     return { "Channels and colour",
              {
                  worded("--ch", "NAMES", "keeps only the named channels, in this order: R,G,B", channels),
+                 worded("--layer", "NAME", "says which layer is the picture, which is filtered and written as PNG",
+                        layer),
                  worded("--unpremult", "", "divides colours by alpha", alpha_operation<iba::unpremult>),
                  worded("--premult", "", "multiplies colours by alpha", alpha_operation<iba::premult>),
                  worded("--incolorspace", "SPACE", "sets the colour space that the top picture is taken to be in",

@@ -162,6 +162,16 @@ bool take_settings(const std::vector<std::string>& arguments, Program& settings,
     return true;
 }
 
+bool turns_upright(const Program& program)
+{
+    const auto says_orientation = [](const std::string& filename) {
+        const std::string extension = OIIO::Strutil::lower(OIIO::Filesystem::extension(filename, false));
+        return extension == "jpg" || extension == "jpeg" || extension == "tif" || extension == "tiff";
+    };
+    return program.autoorient || program.written.empty()
+        || !std::all_of(program.written.begin(), program.written.end(), says_orientation);
+}
+
 bool run_steps(const Program& program, Session& session)
 {
     for (const Step& step : program.steps) {

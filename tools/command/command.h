@@ -48,6 +48,7 @@ struct Program {
     bool informs = false;                      ///< something is printed that needs no pictures
     std::string stats;                         ///< how to print figures: text, json; empty: not
     bool verbose = false;
+    bool autoorient = false;  ///< pictures are turned upright whatever is written
     Frame frame;
     int compressions = 0;  ///< number of --hdr-compress
 
@@ -89,6 +90,10 @@ bool split_keys(const std::string& text, Call& call, std::string& error);
 /// Prepares the general settings among the arguments, wherever they stand; `rest` receives the others.
 bool take_settings(const std::vector<std::string>& arguments, Program& settings, std::vector<std::string>& rest,
                    std::string& error);
+
+/// Whether pictures are to be turned upright while they are read: unless only formats are written that say which way
+/// is up, JPEG and TIFF.
+bool turns_upright(const Program& program);
 
 /// Runs the steps, or for measuring those up to --hdr-compress but for writing.
 bool run_steps(const Program& program, Session& session);

@@ -77,19 +77,30 @@ bool info(const Call& call, Program& program, std::string& error)
     return true;
 }
 
+/// -d TYPE, or -d CHANNEL=TYPE for one channel or all of a layer.
 bool pixel_type(const Call& call, Program& program, std::string& error)
 {
-    const OIIO::TypeDesc type = output_type(call.words[0]);
-    if (type == OIIO::TypeUnknown) {
-        error = format("\"{}\": expected one of {}", call.words[0], kOutputTypes);
+    const std::size_t equals = call.words[0].rfind('=');
+    const std::string channel = call.words[0].substr(0, equals == std::string::npos ? 0 : equals);
+    const OIIO::TypeDesc type = output_type(call.words[0].substr(equals == std::string::npos ? 0 : equals + 1));
+    if (type == OIIO::TypeUnknown || equals == 0) {
+        error = format("\"{}\": expected one of {}, or CHANNEL=TYPE", call.words[0], kOutputTypes);
         return false;
     }
     program.dangling = call.command->name;
     program.steps.push_back({ call.command->name, [=](Session& session) {
-                                 session.output.type = type;
+                                 if (channel.empty())
+                                     session.output.type = type;
+                                 else
+                                     session.output.channel_types[channel] = type;
                                  return true;
                              } });
     return true;
+}
+
+bool autoorient(const Call&, Program& program, std::string&)
+{
+    return program.autoorient = true;
 }
 
 bool raw(const Call& call, Program& program, std::string&)
@@ -182,8 +193,11 @@ CommandGroup output_group()
               output_keys, output_file },
             setting("--info", "FILE", "prints what is in a .pimg file: windows, channels, sizes of its parts", info),
             setting("-d", "TYPE",
-                    "pixel type of the files written after it: uint8, uint16, half, float ...; else the input's",
+                    "pixel type of the files written after it: uint8, uint16, half, float ...; CHANNEL=TYPE for one",
                     pixel_type),
+            setting("--autoorient", "",
+                    "turns pictures upright as their metadata ask; done anyway unless only JPEG and TIFF are written",
+                    autoorient),
             setting("--raw", "",
                     "writes samples unchanged; otherwise linear light is encoded as sRGB in files of whole numbers",
                     raw),

@@ -52,11 +52,23 @@ OIIO::ColorConfig& colour_config()
     return config;
 }
 
-bool holds_linear_light(const OIIO::ImageSpec& stored)
+pimg::Colour meaning_of(const OIIO::ImageSpec& stored)
 {
+    OIIO::ImageSpec rgb = stored;
+    rgb.nchannels = 3;
+    rgb.channelnames = { "R", "G", "B" };
+    rgb.channelformats.clear();
+    rgb.alpha_channel = rgb.z_channel = -1;
     pimg::Colour colour;
     std::string error;
-    return stored.format.is_floating_point() && pimg::Colour::resolve(stored, "", colour, error) && !colour.encoded();
+    pimg::Colour::resolve(rgb, "", "", colour, error);
+    return colour;
+}
+
+bool holds_linear_light(const OIIO::ImageSpec& stored)
+{
+    const pimg::Colour colour = meaning_of(stored);
+    return stored.format.is_floating_point() && !colour.encoded();
 }
 
 std::string scene_linear_space()

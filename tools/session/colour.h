@@ -30,7 +30,11 @@ bool set_context_variable(const std::string& assignment, std::string& error);
 /// The configuration $OCIO names, else OpenImageIO's own few spaces.
 OIIO::ColorConfig& colour_config();
 
-/// Whether a picture with such metadata holds linear light as floating-point numbers, for which whole numbers are encoded.
+/// What samples with such metadata are taken as, whichever channels are the picture.
+pimg::Colour meaning_of(const OIIO::ImageSpec& stored);
+
+/// Whether a picture with such metadata holds linear light as floating-point numbers, to be encoded for files of
+/// whole numbers.
 bool holds_linear_light(const OIIO::ImageSpec& stored);
 
 /// The name that conversions know a picture's space by. Where there is none, its colours are to be converted to
@@ -56,8 +60,8 @@ OIIO::ColorProcessorHandle display_transform(const std::string& display, const s
 /// The name of the space that transform leads to; empty if the configuration does not say.
 std::string display_space(const std::string& display, const std::string& view);
 
-/// The space of a file, for oiio:ColorSpace: as a rule of the configuration has it if the metadata names no space but at
-/// best what the format is usually in, and holds neither chromaticities nor an ICC profile; else as the metadata says.
+/// The space of a file, for oiio:ColorSpace: as a rule of the configuration has it if the metadata names no space but
+/// at best what the format is usually in, and holds neither chromaticities nor an ICC profile; else as the metadata says.
 std::string space_of_file(const std::string& filename, const OIIO::ImageSpec& stored);
 
 using pimg::declare_space;

@@ -15,6 +15,7 @@
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 
+#include <pimg/colour.h>
 #include <pimg/detail/format.h>
 #include <pimg/detail/safe_file.h>
 #include <pimg/labels.h>
@@ -258,6 +259,53 @@ bool convert_labels(const ImageBuf& labels, ImageOutput& out, const std::string&
     return false;
 }
 
+/// For a format without names of channels: the picture with its alpha instead of `source`. `warning` tells what is left
+/// out.
+bool keep_picture(const ImageBuf*& source, ImageBuf& kept, const ImageOutput& out, const std::string& layer,
+                  const OutputReport& report)
+{
+    pimg::Colour colour;
+    if (!pimg::Colour::resolve(source->spec(), "", layer, colour, report.error))
+        return false;
+    std::vector<int> order;
+    for (int i = 0; i < (colour.count() == 2 ? 1 : colour.count()); ++i)
+        order.push_back(colour.channel(i));
+    if (colour.alpha() >= 0 && out.supports("alpha"))
+        order.push_back(colour.alpha());
+    std::vector<std::string> names, left_out;
+    for (std::size_t i = 0; i < order.size(); ++i)
+        names.emplace_back(order[i] == colour.alpha() ? "A" : colour.count() < 3 ? "Y" : std::string(1, "RGB"[i]));
+    bool in_order = int(order.size()) == source->nchannels();
+    for (int c = 0; c < source->nchannels(); ++c) {
+        in_order = in_order && order[std::size_t(c)] == c;
+        if (std::count(order.begin(), order.end(), c) == 0)
+            left_out.push_back(source->spec().channel_name(c));
+    }
+    if (in_order && source->spec().z_channel < 0)
+        return true;
+    kept = OIIO::ImageBufAlgo::channels(*source, int(order.size()), order, {}, names);
+    kept.specmod().alpha_channel = names.back() == "A" ? int(names.size()) - 1 : -1;
+    kept.specmod().z_channel = -1;
+    source = &kept;
+    if (!left_out.empty())
+        report.warning = format("written without {}, which {} does not hold", OIIO::Strutil::join(left_out, ", "),
+                                out.format_name());
+    return true;
+}
+
+/// Labels are numbers: a codec that changes them a little makes others of them.
+void avoid_lossy_codec(const OutputPicture& picture, ImageSpec& spec, std::string& warning)
+{
+    if (!picture.labels)
+        return;
+    const std::string compression = spec.get_string_attribute("compression");
+    for (const char* lossy : { "pxr24", "b44", "dwa" })
+        if (OIIO::Strutil::istarts_with(compression, lossy)) {
+            warning = format("compression {} would change labels: zip instead", compression);
+            spec.attribute("compression", "zip");
+        }
+}
+
 }  // namespace
 
 const char* const kOutputTypes = "uint8, uint16, uint32, int8, int16, int32, half, float, double";
@@ -291,20 +339,24 @@ bool can_write(const std::string& filename, std::string& error)
 }
 
 bool write_picture(const OutputPicture& picture, const std::string& filename,
-                   const std::function<void(float)>& progress, std::string& summary, std::string& error)
+                   const std::function<void(float)>& progress, const OutputReport& report)
 {
+    std::string& error = report.error;
     const std::unique_ptr<ImageOutput> out = create_output(filename, picture.hierarchy);
     if (!out) {
         error = OIIO::geterror();
         return false;
     }
     const TemporaryName file(filename);
-    TypeDesc type = picture.types.all;
-    if (picture.encode_srgb && !stored_type(*out, file.name(), picture.pixels.nchannels(), type, error))
-        return false;
-
-    ImageBuf pixels;  // as they are written, where that differs from what they are
+    ImageBuf pixels, kept;  // as they are written, where that differs from what they are
     const ImageBuf* source = &picture.pixels;
+    const bool names_channels = out->supports("nchannels") || has_pimg_extension(filename);
+    if (!names_channels && !picture.labels && !source->deep()
+        && !keep_picture(source, kept, *out, picture.layer, report))
+        return false;
+    TypeDesc type = picture.types.all;
+    if (picture.encode_srgb && !stored_type(*out, file.name(), source->nchannels(), type, error))
+        return false;
     const ROI window = writable_window(*source, *out);
     if (window != source->roi() && !source->deep()) {
         pixels = OIIO::ImageBufAlgo::crop(*source, window);
@@ -319,15 +371,20 @@ bool write_picture(const OutputPicture& picture, const std::string& filename,
     }
     const bool encode = picture.encode_srgb && !type.is_floating_point() && !source->deep();
     if (encode) {
-        pixels = srgb_encoded(*source);
+        pixels = srgb_encoded(*source, 0, source == &picture.pixels || names_channels ? picture.layer : "");
+        if (pixels.has_error()) {
+            error = pixels.geterror();
+            return false;
+        }
         source = &pixels;
     }
     ImageSpec spec = file_spec(*source, types, *out);
+    avoid_lossy_codec(picture, spec, report.warning);
     if (has_pimg_extension(filename))
         pimg::io::add_hints(spec, picture.options);
     if (!write_safely(*out, *source, filename, file.name(), spec, progress, error))
         return false;
-    summary =
+    report.summary =
         format("{} x {} {}{}", spec.width, spec.height, out->spec().format.c_str(), encode ? ", encoded sRGB" : "");
     return true;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,9 @@ struct PixelTypes {
 
 /// What `-d` and `--raw` say about the files that follow.
 struct OutputSettings {
-    OIIO::TypeDesc type;  ///< UNKNOWN: as the input was stored
-    bool raw = false;     ///< numbers are written as they are
+    OIIO::TypeDesc type;                                  ///< UNKNOWN: as the input was stored
+    std::map<std::string, OIIO::TypeDesc> channel_types;  ///< of channels, or of all of a layer, by name
+    bool raw = false;                                     ///< numbers are written as they are
 };
 
 /// What a file is to be written from.
@@ -34,6 +36,13 @@ struct OutputPicture {
     bool labels;       ///< uint32 numbers, to be stored as they are; type UNKNOWN: as the format holds them best
     const pimg::Hierarchy* hierarchy = nullptr;  ///< of `pixels`, for a .pimg file
     pimg::io::WriteOptions options = {};         ///< of a .pimg file
+    std::string layer = {};                      ///< the picture, for formats that hold nothing else; see BuildOptions
+};
+
+/// What there is to say of a file: a few words on what was written, what is not as asked ("" for nothing), and the line
+/// that says why it was not written.
+struct OutputReport {
+    std::string &summary, &warning, &error;
 };
 
 /// The type `-d` may be given, UNKNOWN for any other word.
@@ -44,9 +53,9 @@ extern const char* const kOutputTypes;  ///< the words, for help and messages
 /// directory, a directory.
 bool can_write(const std::string& filename, std::string& error);
 
-/// Writes to a temporary name beside `filename` and renames it when all is written. `summary` receives a few words on
-/// what was written, `error` the line that says why not.
+/// Writes to a temporary name beside `filename` and renames it when all is written. Formats without names of channels
+/// get the picture and its alpha.
 bool write_picture(const OutputPicture& picture, const std::string& filename,
-                   const std::function<void(float)>& progress, std::string& summary, std::string& error);
+                   const std::function<void(float)>& progress, const OutputReport& report);
 
 }  // namespace pimgtool

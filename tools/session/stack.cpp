@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "session/stack.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/strutil.h>
 
@@ -25,14 +27,48 @@ PixelTypes pixel_types(const OIIO::ImageSpec& stored)
     return { stored.format, stored.channelformats };
 }
 
-std::string describe(const OIIO::ImageSpec& stored)
+/// Types as -d asks for them: channels of data keep theirs unless named.
+PixelTypes asked_types(const OIIO::ImageSpec& spec, const PixelTypes& stored, const OutputSettings& output,
+                       const std::string& layer)
 {
+    PixelTypes types { output.type != OIIO::TypeUnknown ? output.type : stored.all, {} };
     pimg::Colour colour;
     std::string error;
-    const std::string meaning =
-        pimg::Colour::resolve(stored, "", colour, error) ? "taken as " + colour.description() : error;
-    return format("{} x {}, {} channel{}, {}, {}", stored.width, stored.height, stored.nchannels,
-                  stored.nchannels == 1 ? "" : "s", stored.format.c_str(), meaning);
+    OIIO::ImageSpec as_stored = spec;
+    as_stored.format = stored.all;
+    if (int(stored.per_channel.size()) == spec.nchannels)
+        as_stored.channelformats = stored.per_channel;
+    const bool known = pimg::Colour::resolve(as_stored, "", layer, colour, error);
+    for (int c = 0; c < spec.nchannels; ++c) {
+        const bool keeps = output.type == OIIO::TypeUnknown || (known && pimg::holds_data(as_stored, c, colour));
+        types.per_channel.push_back(keeps ? as_stored.channelformat(c) : output.type);
+        const std::string name = spec.channel_name(c);
+        for (const auto& [asked, type] : output.channel_types)
+            if (name == asked || OIIO::Strutil::starts_with(name, asked + "."))
+                types.per_channel.back() = type;
+    }
+    if (std::count(types.per_channel.begin(), types.per_channel.end(), types.all) == spec.nchannels)
+        types.per_channel.clear();
+    return types;
+}
+
+std::string describe(const OIIO::ImageSpec& stored)
+{
+    return format("{} x {}, {} channel{}, {}, taken as {}", stored.width, stored.height, stored.nchannels,
+                  stored.nchannels == 1 ? "" : "s", stored.format.c_str(), meaning_of(stored).description());
+}
+
+/// What Orientation of the metadata asks for.
+bool turn_upright(OIIO::ImageBuf& pixels)
+{
+    OIIO::ImageBuf turned;
+    if (!OIIO::ImageBufAlgo::reorient(turned, pixels)) {
+        pimg::set_error(pixels, turned.geterror());
+        return false;
+    }
+    turned.set_orientation(1);
+    pixels = std::move(turned);
+    return true;
 }
 
 bool same_options(const pimg::BuildOptions& a, const pimg::BuildOptions& b)
@@ -84,13 +120,17 @@ bool Session::read(const std::string& filename)
         declare_space(stored, ruled);
     }
 
+    const bool turned = upright && pixels->orientation() > 1 && !pixels->deep();
+    if (turned && !turn_upright(*pixels))
+        return fail(format("cannot turn \"{}\" upright: {}", filename, pixels->geterror()));
+
     Picture picture;
     picture.name = filename;
     picture.stored = pixel_types(stored);
     picture.linear_light = holds_linear_light(stored);
     picture.pixels = pixels;
     picture.hierarchy = std::make_shared<LazyHierarchy>();
-    if (pimg::io::file_of(filename) == filename)
+    if (pimg::io::file_of(filename) == filename && !turned)
         picture.hierarchy->stored = StoredHierarchy::open(filename);
     say(format("{}: {}, {:.2f} s", filename, describe(stored), timer.seconds()));
     stack.push_back(picture);
@@ -127,7 +167,8 @@ std::shared_ptr<OIIO::ImageBuf> Session::read_pixels(const std::string& filename
         return nullptr;
     }
     if (pixels->nsubimages() > 1)
-        say(format("{}: only the first of {} images is used", filename, pixels->nsubimages()));
+        std::fprintf(stderr, "pimgtool: warning: \"%s\": only the first of %d parts is used\n", filename.c_str(),
+                     pixels->nsubimages());
     stored = pixels->nativespec();
     return pixels;
 }
@@ -145,17 +186,19 @@ bool Session::write(const std::string& filename, const pimg::io::WriteOptions& o
     const Picture& picture = top();
     OutputPicture out { *picture.pixels, picture.stored, picture.linear_light && !output.raw,
                         picture.labels,  hierarchy,      options };
+    out.layer = picture.hierarchy->options.layer;
     if (picture.labels) {
-        out.types = { OIIO::TypeUnknown, {} };
-        out.encode_srgb = false;
-    }
-    if (output.type != OIIO::TypeUnknown)
         out.types = { output.type, {} };
+        out.encode_srgb = false;
+    } else if (output.type != OIIO::TypeUnknown || !output.channel_types.empty())
+        out.types = asked_types(out.pixels.spec(), picture.stored, output, out.layer);
     ProgressBar bar(label("writing", filename));
-    std::string summary, error;
-    if (!write_picture(
-            out, filename, [&](float done) { bar.show(done); }, summary, error))
+    std::string summary, warning, error;
+    const bool written = write_picture(out, filename, [&](float done) { bar.show(done); }, { summary, warning, error });
+    if (!written)
         return fail(format("cannot write \"{}\": {}", filename, error));
+    if (!warning.empty())
+        std::fprintf(stderr, "pimgtool: warning: \"%s\": %s\n", filename.c_str(), warning.c_str());
     // What will be read under this name is the new file.
     m_kept.erase(filename);
     OIIO::ImageCache::create(true)->invalidate(OIIO::ustring(filename), true);

@@ -81,6 +81,7 @@ public:
     OutputSettings output;  ///< of the files written from here on
     Stats stats;
     bool verbose = false;
+    bool upright = true;  ///< pictures are turned as their metadata ask while they are read
 
     Anchors anchors;         ///< of the frame, known from the shot or measured
     bool measuring = false;  ///< the anchors are to be found, nothing else

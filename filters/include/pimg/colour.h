@@ -31,8 +31,9 @@ class Colour {
 public:
     /// Finds out the colour space of a picture. The first of these that says something decides:
     ///   1. `space`, the option incolorspace;
-    ///   2. the metadata oiio:ColorSpace or colorInteropID, if it names a known space other than just "Linear";
-    ///   3. the type of the samples: floating-point samples are linear, and whole numbers are sRGB unless the metadata
+    ///   2. the metadata CICP and ICCProfile, if oiio:ColorSpace says no more than what files of the format usually are;
+    ///   3. the metadata oiio:ColorSpace or colorInteropID, if it names a known space other than just "Linear";
+    ///   4. the type of the samples: floating-point samples are linear, and whole numbers are sRGB unless the metadata
     ///      call them "Linear". Samples of a PFM file are linear, whatever OpenImageIO calls them.
     /// The primaries of linear samples that no name tells are those of the attribute chromaticities; without it, the
     /// samples are scene-linear.
@@ -47,15 +48,25 @@ public:
     /// these they are taken from the space's name. If that does not tell them either, they count as those of Rec. 709,
     /// and luminance has the configuration's luma coefficients.
     ///
-    /// Fails, with one line in `error`, when `space` is unknown or $OCIO names a configuration that cannot be read.
-    static bool resolve(const OIIO::ImageSpec& spec, const std::string& space, Colour& colour, std::string& error);
+    /// Fails, with one line in `error`, when `space` or `layer` is unknown, when several layers may be the picture, and
+    /// when $OCIO names a configuration that cannot be read.
+    static bool resolve(const OIIO::ImageSpec& spec, const std::string& space, const std::string& layer, Colour& colour,
+                        std::string& error);
+    /// The same for the layer that is the picture when none is named.
+    static bool resolve(const OIIO::ImageSpec& spec, const std::string& space, Colour& colour, std::string& error)
+    {
+        return resolve(spec, space, {}, colour, error);
+    }
 
     /// The number of colour channels, 1 to 3, and the channel of the picture that is colour channel `i`. Colour channels
-    /// are those named R, G and B (or red, green and blue) if all three are there, else the first three that are neither
-    /// alpha nor depth. In a picture of nothing but alpha and depth, these count as colour. No others are filtered.
+    /// are those of `layer`. Without one they are R, G and B if the picture has channels so named, else those of the
+    /// layer rgba, Color, beauty, Combined or C, else those of the only layer that has all three. Else they are the first
+    /// three channels that are neither alpha nor depth and have no layer, or the only one. No others are filtered.
     int count() const { return m_count; }
     int channel(int i) const { return m_channels[std::size_t(i)]; }
     bool is_colour(int channel) const;
+    /// Their alpha, or -1.
+    int alpha() const { return m_alpha; }
 
     /// Whether samples are encoded, that is must be decoded to become linear light.
     bool encoded() const { return m_decoder != nullptr; }
@@ -102,7 +113,7 @@ private:
     std::array<float, 9> m_to_rec709 {}, m_from_rec709 {};
     std::array<float, 3> m_weights { 0.2126f, 0.7152f, 0.0722f };
     std::array<int, 3> m_channels { 0, 0, 0 };
-    int m_count = 0;
+    int m_count = 0, m_alpha = -1;
     std::shared_ptr<const Decoder> m_decoder;
     std::string m_linear_name = "Linear";
     std::string m_config_name, m_description;
@@ -110,5 +121,9 @@ private:
 
     friend struct ColourFinder;
 };
+
+/// Whether a channel beside the picture's holds data rather than light, as its name (crypto, depth, normal, position,
+/// motion, UV, IDs) or its type (32-bit integers) says.
+bool holds_data(const OIIO::ImageSpec& spec, int channel, const Colour& colour);
 
 }  // namespace pimg

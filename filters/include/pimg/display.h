@@ -9,10 +9,10 @@
 
 namespace pimg {
 
-/// Encodes a linear picture in sRGB. Its colours are first converted to Rec. 709 from the primaries that its metadata name
-/// (Colour::resolve()). The result is float; alpha and other channels are copied. nthreads: 0 = OpenImageIO's "threads"
-/// attribute. On failure the result has an error.
-OIIO::ImageBuf srgb_encoded(const OIIO::ImageBuf& src, int nthreads = 0);
+/// Encodes a linear picture in sRGB. Its colours, those of `layer` (Colour::count()), are first converted to Rec. 709 from
+/// the primaries that its metadata name (Colour::resolve()). The result is float; alpha and other channels are copied.
+/// nthreads: 0 = OpenImageIO's "threads" attribute. On failure the result has an error.
+OIIO::ImageBuf srgb_encoded(const OIIO::ImageBuf& src, int nthreads = 0, const std::string& layer = {});
 
 /// Applies the sRGB curve to `count` numbers in place. Below 0 the curve is a straight line, and above 1 it continues.
 void srgb_in_place(float* values, std::size_t count);

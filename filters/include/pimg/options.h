@@ -90,8 +90,9 @@ struct BuildOptions {
     int base = 128;       ///< triangles of the base mesh, 2 or more
     std::string metric = "volume";  ///< cost of a collapse; quadric and exact are slow, for comparison
     std::string
-        incolorspace;  ///< colour space of the picture; empty: its oiio:ColorSpace, else sRGB for whole numbers,
-                       ///< else scene-linear
+        incolorspace;   ///< colour space of the picture; empty: its oiio:ColorSpace, else sRGB for whole numbers,
+                        ///< else scene-linear
+    std::string layer;  ///< which channels are the picture; empty: see Colour::count()
     std::string mesh = "full";         ///< full: one vertex per pixel; adaptive: fewer, and a residual (section 6)
     float density = 0.33f;             ///< share of the pixels that are vertices of an adaptive mesh
     std::string control = "gradient";  ///< what it follows: gradient, curvature, or the brightness of an image file

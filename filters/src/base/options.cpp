@@ -208,6 +208,8 @@ const std::vector<Option<BuildOptions>>& option_table<BuildOptions>()
         { &T::incolorspace,
           { "incolorspace", 0, 0, "", "",
             "colour space; else that of the metadata; else floats linear, others sRGB" } },
+        { &T::layer,
+          { "layer", 0, 0, "", "", "layer that is the picture; else R,G,B, or the beauty, or the only layer" } },
         { &T::mesh,
           { "mesh", 0, 0, "", "full|adaptive",
             "full: a vertex for every pixel; adaptive: fewer, faster and still exact" } },

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <mutex>
 #include <utility>
 
@@ -12,6 +13,8 @@
 
 #include <pimg/display.h>
 
+#include "colour/icc.h"
+#include "colour/layers.h"
 #include "colour/primaries.h"
 #include "colour/spaces.h"
 
@@ -30,8 +33,8 @@ using Weights = std::array<float, 3>;
 /// Rec. ITU-R BT.709, as Colour has them to begin with.
 constexpr Weights kRec709Weights { 0.2126f, 0.7152f, 0.0722f };
 
-/// Matrices closer to each other than this are the same but for rounding of what configurations and files hold: a quarter
-/// of an 8-bit code.
+/// Matrices closer to each other than this are the same but for rounding of what configurations and files hold: a
+/// quarter of an 8-bit code.
 constexpr double kSameMatrix = 2e-3;
 
 std::string lower(std::string text)
@@ -154,6 +157,16 @@ OCIO::TransformRcPtr curve(double gamma, double offset)
     const auto transform = OCIO::ExponentWithLinearTransform::Create();
     transform->setGamma({ gamma, gamma, gamma, 1.0 });
     transform->setOffset({ offset, offset, offset, 0.0 });
+    return transform;
+}
+
+OCIO::TransformRcPtr curves(const std::vector<float> (&samples)[3])
+{
+    const std::size_t length = samples[0].size();
+    const auto transform = OCIO::Lut1DTransform::Create((unsigned long)(length), false);
+    transform->setInterpolation(OCIO::INTERP_LINEAR);
+    for (std::size_t i = 0; i < length; ++i)
+        transform->setValue((unsigned long)(i), samples[0][i], samples[1][i], samples[2][i]);
     return transform;
 }
 
@@ -347,25 +360,15 @@ struct ColourFinder {
         return true;
     }
 
-    void find_channels(const OIIO::ImageSpec& spec)
+    bool find_channels(const OIIO::ImageSpec& spec, const std::string& layer, std::string& error)
     {
-        std::array<int, 3> named { -1, -1, -1 };
-        std::array<int, 3> first { -1, -1, -1 };
-        int others = 0;
-        for (int c = 0; c < spec.nchannels; ++c) {
-            const std::string name = lower(spec.channel_name(c));
-            for (std::size_t i = 0; i < 3; ++i)
-                if (is_one_of(name, { i == 0 ? "r" : i == 1 ? "g" : "b", i == 0 ? "red" : i == 1 ? "green" : "blue" }))
-                    named[i] = c;
-            if (c != spec.alpha_channel && c != spec.z_channel && others < 3)
-                first[std::size_t(others++)] = c;
-        }
-        if (others == 0)  // only alpha or depth: then that is the picture
-            for (; others < std::min(spec.nchannels, 3); ++others)
-                first[std::size_t(others)] = others;
-        const bool is_rgb = *std::min_element(named.begin(), named.end()) >= 0;
-        colour.m_channels = is_rgb ? named : first;
-        colour.m_count = is_rgb ? 3 : others;
+        PictureChannels picture;
+        if (!find_picture(spec, layer, picture, error))
+            return false;
+        colour.m_channels = picture.channels;
+        colour.m_count = picture.count;
+        colour.m_alpha = picture.alpha;
+        return true;
     }
 
     /// Pictures without three colours: the first is the luminance.
@@ -375,6 +378,57 @@ struct ColourFinder {
             return;
         colour.m_weights = { 1.0f, 0.0f, 0.0f };
         colour.m_converts = false;
+    }
+
+    /// An ICC profile, where the metadata say no more of the space than what files of the format are usually in.
+    bool use_icc(const OIIO::ImageSpec& spec, const std::string& name)
+    {
+        const OIIO::ParamValue* attribute = spec.find_attribute("ICCProfile");
+        const bool is_usual = name.empty() || names_srgb(lower(name));
+        IccSpace icc;
+        if (attribute == nullptr || !is_usual || !read_icc(attribute->data(), std::size_t(attribute->datasize()), icc))
+            return false;
+        if (icc.srgb)
+            use_own_space("sRGB");
+        else if (icc.linear)
+            set_primaries(icc.primaries);
+        else
+            use_encoded(curves(icc.curves), icc.primaries);
+        colour.m_description = "its ICC profile says, " + (icc.name.empty() ? "of no name" : icc.name);
+        return true;
+    }
+
+    /// Code points of ITU-T H.273, as PNG files have them. Unknown ones are no error.
+    bool use_cicp(const OIIO::ImageSpec& spec)
+    {
+        const OIIO::ParamValue* attribute = spec.find_attribute("CICP");
+        if (attribute == nullptr || attribute->type().basetype != OIIO::TypeDesc::INT
+            || attribute->type().basevalues() != 4)
+            return false;
+        const int* code = static_cast<const int*>(attribute->data());
+        static const std::map<int, Chromaticities> primaries { { 1, kRec709 }, { 9, kRec2020 }, { 12, kP3 } };
+        static const std::map<int, std::pair<double, double>> transfers {
+            { 1, { kRec709Gamma, kRec709Offset } },
+            { 6, { kRec709Gamma, kRec709Offset } },
+            { 14, { kRec709Gamma, kRec709Offset } },
+            { 15, { kRec709Gamma, kRec709Offset } },
+            { 4, { 2.2, 0.0 } },
+            { 8, { 1.0, 0.0 } },
+            { 13, { kSrgbGamma, kSrgbOffset } },
+        };
+        const auto colours = primaries.find(code[0]);
+        const auto transfer = transfers.find(code[1]);
+        if (colours == primaries.end() || transfer == transfers.end())
+            return false;
+        const auto [gamma, offset] = transfer->second;
+        if (gamma == 1.0)
+            set_primaries(colours->second);
+        else if (code[0] == 1 && code[1] == 13)
+            use_own_space("sRGB");
+        else
+            use_encoded(curve(gamma, offset), colours->second);
+        colour.m_description = "its CICP says";
+        return true;
     }
 
     /// From the picture's own metadata and type.
@@ -387,6 +441,10 @@ struct ColourFinder {
             name.clear();
         if (says_only_linear(lower(name)))
             name = spec.get_string_attribute("colorInteropID", name);
+        if ((name.empty() || names_srgb(lower(name))) && use_cicp(spec))
+            return;
+        if (use_icc(spec, name))
+            return;
         if (!says_only_linear(lower(name)) && (use_config_space(name) || use_own_space(name))) {
             colour.m_description = name + ", as its metadata say";
             return;
@@ -431,12 +489,14 @@ bool check_colour_config(std::string& error)
     }
 }
 
-bool Colour::resolve(const OIIO::ImageSpec& spec, const std::string& space, Colour& colour, std::string& error)
+bool Colour::resolve(const OIIO::ImageSpec& spec, const std::string& space, const std::string& layer, Colour& colour,
+                     std::string& error)
 {
     try {
         Colour found;
         ColourFinder finder { found, environment_config() };
-        finder.find_channels(spec);
+        if (!finder.find_channels(spec, layer, error))
+            return false;
         if (space.empty()) {
             finder.use_metadata(spec);
         } else if (!finder.use_config_space(space) && !finder.use_own_space(space)) {
@@ -495,6 +555,11 @@ bool Colour::to_scene_linear(float* rgb, std::size_t count) const
     } catch (const OCIO::Exception&) {
         return false;  // a configuration that cannot be read has been complained of
     }
+}
+
+bool holds_data(const OIIO::ImageSpec& spec, int channel, const Colour& colour)
+{
+    return !colour.is_colour(channel) && channel != colour.alpha() && holds_data(spec, channel);
 }
 
 void Colour::declare_linear(OIIO::ImageSpec& spec) const

@@ -44,7 +44,7 @@ private:
     void for_colours(float* row, Body&& body) const
     {
         for (int x = 0; x < m_spec.width; ++x, row += m_spec.nchannels) {
-            const float a = m_spec.alpha_channel >= 0 ? row[m_spec.alpha_channel] : 1.0f;
+            const float a = m_colour.alpha() >= 0 ? row[m_colour.alpha()] : 1.0f;
             for (int c = 0; c < m_colour.count(); ++c)
                 body(x, c, row[m_colour.channel(c)], a > 0.0f ? a : 1.0f);
         }
@@ -56,7 +56,7 @@ private:
 
 }  // namespace
 
-ImageBuf srgb_encoded(const ImageBuf& src, int nthreads)
+ImageBuf srgb_encoded(const ImageBuf& src, int nthreads, const std::string& layer)
 {
     ImageBuf dst;
     const bool copied = copy_as_float(dst, src);
@@ -65,7 +65,7 @@ ImageBuf srgb_encoded(const ImageBuf& src, int nthreads)
     const OIIO::ImageSpec& spec = dst.spec();
     std::string error;
     Colour colour;
-    if (copied && !Colour::resolve(spec, "", colour, error)) {
+    if (copied && !Colour::resolve(spec, "", layer, colour, error)) {
         set_error(dst, error);
         return dst;
     }

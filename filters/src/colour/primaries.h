@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Primaries of RGB spaces and the matrices between them. Whites are adapted by the method of Bradford, as the ACES and ICC
-// conversions do.
+// Primaries of RGB spaces and the matrices between them. Whites are adapted by the method of Bradford, as
+// the conversions of ACES and ICC do.
 #pragma once
 
 #include <array>
@@ -35,7 +35,7 @@ bool is_near(const Matrix3& a, const Matrix3& b, double tolerance);
 /// From linear RGB of these primaries to linear Rec. 709. False for degenerate primaries.
 bool matrix_to_rec709(const Chromaticities& primaries, Matrix3& matrix);
 
-/// The well-known primaries whose matrix to Rec. 709 is within `tolerance` of this one, Rec. 709 itself first; else null.
+/// The well-known primaries whose matrix to Rec. 709 is within `tolerance` of this one, else null.
 const Chromaticities* known_primaries(const Matrix3& to_rec709, double tolerance);
 
 }  // namespace pimg

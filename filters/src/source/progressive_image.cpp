@@ -133,7 +133,7 @@ bool ProgressiveImage::Data::read(const OIIO::ImageBuf& src, std::string& error)
     stored.format = src.nativespec().format;
     whole_numbers = !stored.format.is_floating_point();
     stats.guide = !options.guide.empty() ? options.guide : whole_numbers ? "luma" : "log";
-    return Colour::resolve(stored, options.incolorspace, colour, error);
+    return Colour::resolve(stored, options.incolorspace, options.layer, colour, error);
 }
 
 /// Leaves `mesh` empty if every pixel is to be a vertex.

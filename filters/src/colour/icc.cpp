@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colour/icc.h"
+
+#include <cmath>
+#include <memory>
+
+#include <lcms2.h>
+
+#include "colour/spaces.h"
+
+namespace pimg {
+
+namespace {
+
+/// A profile's numbers are rounded to 16 bits, and the many editions of sRGB differ a little: half a code of 8 bits.
+constexpr double kSameCurve = 2e-3, kSameSpace = 5e-3;
+
+using Profile = std::unique_ptr<void, decltype(&cmsCloseProfile)>;
+
+template<class T>
+const T* tag(const Profile& profile, cmsTagSignature signature)
+{
+    return static_cast<const T*>(cmsReadTag(profile.get(), signature));
+}
+
+/// xy of the red, green and blue of a profile, and of their sum.
+bool read_primaries(const Profile& profile, Chromaticities& primaries)
+{
+    cmsCIEXYZ white { 0, 0, 0 };
+    const auto set = [&](std::size_t i, const cmsCIEXYZ& c) {
+        const double sum = c.X + c.Y + c.Z;
+        primaries[2 * i] = c.X / sum;
+        primaries[2 * i + 1] = c.Y / sum;
+        return std::isfinite(primaries[2 * i]) && std::isfinite(primaries[2 * i + 1]);
+    };
+    const cmsTagSignature tags[] = { cmsSigRedColorantTag, cmsSigGreenColorantTag, cmsSigBlueColorantTag };
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto* colorant = tag<cmsCIEXYZ>(profile, tags[i]);
+        if (colorant == nullptr || !set(i, *colorant))
+            return false;
+        white = { white.X + colorant->X, white.Y + colorant->Y, white.Z + colorant->Z };
+    }
+    return set(3, white);
+}
+
+bool read_curve(const Profile& profile, cmsTagSignature signature, std::vector<float>& curve)
+{
+    const auto* tone = tag<cmsToneCurve>(profile, signature);
+    if (tone == nullptr)
+        return false;
+    for (std::size_t i = 0; i < IccSpace::kSamples; ++i) {
+        const float x = float(double(i) / double(IccSpace::kSamples - 1));
+        curve.push_back(cmsEvalToneCurveFloat(tone, x));
+        if (!std::isfinite(curve.back()))
+            return false;
+    }
+    return true;
+}
+
+double srgb_curve(double x)
+{
+    return x <= 0.04045 ? x / 12.92 : std::pow((x + kSrgbOffset) / (1.0 + kSrgbOffset), kSrgbGamma);
+}
+
+/// Whether all three curves are `expected`.
+template<class Expected>
+bool are(const IccSpace& space, Expected&& expected)
+{
+    for (const std::vector<float>& curve : space.curves)
+        for (std::size_t i = 0; i < IccSpace::kSamples; ++i)
+            if (std::fabs(double(curve[i]) - expected(double(i) / double(IccSpace::kSamples - 1))) > kSameCurve)
+                return false;
+    return true;
+}
+
+}  // namespace
+
+bool read_icc(const void* bytes, std::size_t size, IccSpace& space)
+{
+    const Profile profile(cmsOpenProfileFromMem(bytes, cmsUInt32Number(size)), cmsCloseProfile);
+    if (profile == nullptr)
+        return false;
+    space = IccSpace();
+    bool found = false;
+    if (cmsGetColorSpace(profile.get()) == cmsSigGrayData) {
+        space.primaries = kRec709;
+        found = read_curve(profile, cmsSigGrayTRCTag, space.curves[0]);
+        space.curves[1] = space.curves[2] = space.curves[0];
+    } else if (cmsGetColorSpace(profile.get()) == cmsSigRgbData && cmsIsMatrixShaper(profile.get())) {
+        found = read_primaries(profile, space.primaries) && read_curve(profile, cmsSigRedTRCTag, space.curves[0])
+            && read_curve(profile, cmsSigGreenTRCTag, space.curves[1])
+            && read_curve(profile, cmsSigBlueTRCTag, space.curves[2]);
+    }
+    Matrix3 matrix;
+    if (!found || !matrix_to_rec709(space.primaries, matrix))
+        return false;
+    space.linear = are(space, [](double x) { return x; });
+    space.srgb = is_near(matrix, kIdentity, kSameSpace) && are(space, srgb_curve);
+    char name[64] = "";
+    cmsGetProfileInfoASCII(profile.get(), cmsInfoDescription, "en", "US", name, sizeof name);
+    space.name = name;
+    return true;
+}
+
+}  // namespace pimg
