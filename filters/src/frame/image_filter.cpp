@@ -73,6 +73,26 @@ bool prepare_single(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI&
     return prepare_as(dst, data, roi, spec);
 }
 
+std::vector<float> alpha_of(const ProgressiveImage::Data& data)
+{
+    std::vector<float> alpha;
+    const int channel = data.colour.alpha();
+    if (channel < 0 || data.spec.get_int_attribute("oiio:UnassociatedAlpha") != 0)
+        return alpha;
+    const float* sample = static_cast<const float*>(data.source.localpixels()) + channel;
+    for (std::size_t i = 0; i < data.spec.image_pixels(); ++i, sample += data.source.nchannels())
+        alpha.push_back(std::clamp(*sample, 0.0f, 1.0f));
+    return alpha;
+}
+
+void associate(const ProgressiveImage::Data& data, std::vector<std::vector<float>>& channels)
+{
+    const std::vector<float> alpha = alpha_of(data);
+    for (std::vector<float>& channel : channels)
+        for (std::size_t i = 0; i < alpha.size(); ++i)
+            channel[i] *= alpha[i];
+}
+
 void write_rows(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, OIIO::ROI roi, const ParallelFor& parallel,
                 const RowFilter& filter)
 {

@@ -51,6 +51,13 @@ enum class Specials { restored, replaced };
 void write_channels(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, OIIO::ROI roi, const ParallelFor& parallel,
                     const std::vector<std::vector<float>>& results, Specials specials = Specials::restored);
 
+/// The alpha that goes with the picture's colours, one float per pixel; empty if it has none.
+std::vector<float> alpha_of(const ProgressiveImage::Data& data);
+
+/// Multiplies channels of the picture's size by alpha, so that paper and joints do not show where the picture has no
+/// pixels: colours of associated alpha are nothing there. Nothing to do for pictures without alpha.
+void associate(const ProgressiveImage::Data& data, std::vector<std::vector<float>>& channels);
+
 /// Calls body(sample) for the samples of `count` pixels from number `first` on that were not finite.
 template<class Body>
 void for_specials(const ProgressiveImage::Data& data, Index first, std::size_t count, Body&& body)

@@ -156,6 +156,7 @@ private:
         float rgb[3 * kBatch];
         linear_pixels(m_data.source, m_data.colour, first, count, rgb);
         recolour_pixels(first, count, rgb);
+        associate_pixels(m_data.source, m_data.colour, first, count, rgb);
         for (int c = 0; c < m_data.colour.count(); ++c) {
             float* to = pixels + m_data.colour.channel(c);
             for (std::size_t i = 0; i < count; ++i)

@@ -61,7 +61,8 @@ bool on_hierarchy::ink(ImageBuf& dst, const ProgressiveImage& src, const InkOpti
             set_error(dst, error);
             return false;
         }
-        const std::vector<std::vector<float>> results(std::size_t(data.colour.count()), paper);
+        std::vector<std::vector<float>> results(std::size_t(data.colour.count()), paper);
+        associate(data, results);
         write_channels(dst, data, roi, parallel, results, Specials::replaced);
         return true;
     });

@@ -13,6 +13,27 @@
 namespace pimg {
 namespace ImageBufAlgo {
 
+namespace {
+
+/// Where there is alpha, gives each tile of the picture in `channels` its mean colour without it: a tile half outside
+/// of a cut-out is no darker than its neighbours.
+void straighten(const ProgressiveImage::Data& data, const Tiling& tiling, Index tiles, const ParallelFor& parallel,
+                const std::vector<float*>& channels)
+{
+    const std::vector<float> alpha = alpha_of(data);
+    if (alpha.empty())
+        return;
+    std::vector<float> cover = to_mesh_pixels(data.hierarchy, alpha.data());
+    std::vector<float*> all = channels;
+    all.push_back(cover.data());
+    lay_mosaic(tiling, tiles, { 0.0f, 0.0f, 0.0f, parallel }, std::vector<float>(all.size(), 0.0f), all);
+    for (float* channel : channels)
+        for (std::size_t i = 0; i < cover.size(); ++i)
+            channel[i] = cover[i] > 0.0f ? channel[i] / cover[i] : 0.0f;
+}
+
+}  // namespace
+
 bool on_hierarchy::mosaic(ImageBuf& dst, const ProgressiveImage& src, const MosaicOptions& options, ROI roi,
                           int nthreads)
 {
@@ -37,10 +58,12 @@ bool on_hierarchy::mosaic(ImageBuf& dst, const ProgressiveImage& src, const Mosa
         std::vector<float*> channels;
         for (std::vector<float>& channel : picture.channels)
             channels.push_back(channel.data());
-        lay_mosaic(tile(mesh, parallel), mesh.size(), { options.grout, options.bevel, options.relief, parallel }, grout,
-                   channels);
+        const Tiling tiling = tile(mesh, parallel);
+        straighten(data, tiling, mesh.size(), parallel, channels);
+        lay_mosaic(tiling, mesh.size(), { options.grout, options.bevel, options.relief, parallel }, grout, channels);
         for (std::vector<float>& channel : picture.channels)
             crop_to_picture(data.hierarchy, channel);
+        associate(data, picture.channels);
         write_channels(dst, data, roi, parallel, picture.channels, Specials::replaced);
         return true;
     });

@@ -47,12 +47,16 @@ bool on_hierarchy::wireframe(ImageBuf& dst, const ProgressiveImage& src, const W
         std::vector<float> coverage = pimg::wireframe(picture.mesh, options.line);
         crop_to_picture(data.hierarchy, coverage);
         if (options.overlay) {
+            const std::vector<float> alpha = alpha_of(data);
+            for (std::size_t i = 0; i < alpha.size(); ++i)
+                coverage[i] *= alpha[i];
             for (std::vector<float>& channel : picture.channels)
                 draw_over(coverage, channel);
         } else {
             for (float& c : coverage)
                 c = 1.0f - c;
             picture.channels.assign(std::size_t(data.colour.count()), coverage);
+            associate(data, picture.channels);
         }
         write_channels(dst, data, roi, parallel, picture.channels, Specials::replaced);
         return true;

@@ -163,6 +163,27 @@ float MagnitudeHistogram::quantile(double q) const
     return 0.0f;
 }
 
+namespace {
+
+/// Alpha below this, the least normal half, is as good as none: its colours are left as they are.
+constexpr float kLeastAlpha = 0x1p-14f;
+
+/// Calls body(alpha, its triple) for pixels whose colours are associated with an alpha that is neither none nor all.
+template<class Body>
+void for_soft_pixels(const OIIO::ImageBuf& picture, const Colour& colour, Index first, std::size_t count, float* rgb,
+                     Body&& body)
+{
+    const std::size_t channels = std::size_t(picture.nchannels());
+    if (colour.alpha() < 0 || picture.spec().get_int_attribute("oiio:UnassociatedAlpha") != 0)
+        return;
+    const float* alpha = static_cast<const float*>(picture.localpixels()) + first * channels + colour.alpha();
+    for (std::size_t i = 0; i < count; ++i, alpha += channels)
+        if (*alpha >= kLeastAlpha && *alpha < 1.0f)
+            body(*alpha, rgb + 3 * i);
+}
+
+}  // namespace
+
 void linear_pixels(const OIIO::ImageBuf& picture, const Colour& colour, Index first, std::size_t count, float* rgb)
 {
     const std::size_t channels = std::size_t(picture.nchannels());
@@ -173,7 +194,19 @@ void linear_pixels(const OIIO::ImageBuf& picture, const Colour& colour, Index fi
         rgb[3 * i + 1] = p[g];
         rgb[3 * i + 2] = p[b];
     }
+    for_soft_pixels(picture, colour, first, count, rgb, [](float alpha, float* pixel) {
+        for (int c = 0; c < 3; ++c)
+            pixel[c] /= alpha;
+    });
     colour.decode(rgb, count);
+}
+
+void associate_pixels(const OIIO::ImageBuf& picture, const Colour& colour, Index first, std::size_t count, float* rgb)
+{
+    for_soft_pixels(picture, colour, first, count, rgb, [](float alpha, float* pixel) {
+        for (int c = 0; c < 3; ++c)
+            pixel[c] *= alpha;
+    });
 }
 
 namespace {

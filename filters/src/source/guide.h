@@ -67,7 +67,10 @@ StoredGuide stored_guide(const OIIO::ImageBuf& picture, const Colour& colour, bo
                          const ParallelFor& parallel);
 
 /// `count` pixels of a float picture from number `first` on (row-major) as linear RGB triples; the first colour channel
-/// stands in for missing ones.
+/// stands in for missing ones. Colours are straight: where they are associated with alpha, it is divided out.
 void linear_pixels(const OIIO::ImageBuf& picture, const Colour& colour, Index first, std::size_t count, float* rgb);
+
+/// Multiplies results made of linear_pixels() by alpha again.
+void associate_pixels(const OIIO::ImageBuf& picture, const Colour& colour, Index first, std::size_t count, float* rgb);
 
 }  // namespace pimg
