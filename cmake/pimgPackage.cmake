@@ -53,7 +53,7 @@ pimg_debian_package(runtime libpimg0 libs "progressive images for OpenImageIO: C
     "A progressive image is a picture as a mesh with one vertex for each pixel,\nsimplified to a base mesh and refined by vertex splits, large features first.\nThis package holds the C library that other languages load.")
 pimg_debian_package(dev libpimg-dev libdevel "progressive images for OpenImageIO: development files"
     "Headers, the C++ libraries pimg::core, pimg::codec, pimg::painting and\npimg::filters, and the files for CMake and pkg-config."
-    "libpimg0 (= ${PROJECT_VERSION})" "libopenimageio-dev" "openimageio-tools" "libopencolorio-dev" "libhwy-dev" "libpugixml-dev" "libzstd-dev")
+    "libpimg0 (= ${PROJECT_VERSION})" "libopenimageio-dev" "openimageio-tools" "libopencolorio-dev" "libhwy-dev" "liblcms2-dev" "libpugixml-dev" "libzstd-dev")
 pimg_debian_package(tools pimg-tools graphics "progressive images for OpenImageIO: command line"
     "pimgtool tone-maps, smooths, segments and paints pictures of every format that\nOpenImageIO reads. The package also tells desktops what .pimg files are and\nshows thumbnails of them.")
 pimg_debian_package(plugin openimageio-plugin-pimg graphics "progressive images for OpenImageIO: file format plugin"

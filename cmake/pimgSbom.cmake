@@ -29,6 +29,7 @@ pimg_sbom_package(OpenColorIO "${OpenColorIO_VERSION}" BSD-3-Clause
     https://github.com/AcademySoftwareFoundation/OpenColorIO)
 pimg_sbom_package(Imath "${Imath_VERSION}" BSD-3-Clause https://github.com/AcademySoftwareFoundation/Imath)
 pimg_sbom_package(highway "${hwy_VERSION}" Apache-2.0 https://github.com/google/highway)
+pimg_sbom_package(lcms2 "${PIMG_LCMS_VERSION}" MIT https://www.littlecms.com)
 pimg_sbom_package(pugixml "${pugixml_VERSION}" MIT https://pugixml.org)
 pimg_sbom_package(zstd "${PIMG_ZSTD_VERSION}" BSD-3-Clause https://github.com/facebook/zstd)
 if(TARGET pimgview)

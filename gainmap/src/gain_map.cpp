@@ -39,7 +39,7 @@ constexpr std::string_view kIsoName { "urn:iso:std:iso:ts:21496:-1\0", 28 };
 bool linear_light(const OIIO::ImageBuf& picture, bool as_rec709, Light& light, Colour& colour, std::string& error)
 {
     const OIIO::ImageSpec& spec = picture.spec();
-    if (!Colour::resolve(spec, "", colour, error))
+    if (!Colour::resolve(spec, "", "", colour, error))
         return false;
     light.width = spec.width;
     light.height = spec.height;
@@ -196,7 +196,7 @@ bool base_light(const Parts& parts, const OIIO::ImageBuf& base, const OIIO::Imag
         return false;
     if (!other_primaries)
         return true;
-    if (!Colour::resolve(map.spec(), "", colour, error))
+    if (!Colour::resolve(map.spec(), "", "", colour, error))
         return false;
     colour.from_rec709(light.rgb.data(), light.rgb.size() / 3);
     return true;

@@ -121,7 +121,7 @@ bool median_light(const OIIO::ImageBuf& picture, const std::string& space, float
 {
     constexpr std::size_t kLitOf = 1000;  ///< one lit pixel in so many is a hot one, not a picture
     pimg::Colour colour;
-    if (!pimg::Colour::resolve(picture.nativespec(), space, colour, error))
+    if (!pimg::Colour::resolve(picture.nativespec(), space, "", colour, error))
         return false;
     std::vector<float> lit;
     std::vector<float> rgb(3 * std::size_t(picture.spec().width));

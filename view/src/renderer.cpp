@@ -142,9 +142,12 @@ bool save(const DocumentState& document, const FilterStack& stack, const std::st
         out.types = { OIIO::TypeUnknown, {} };
         out.encode_srgb = false;
     }
-    if (pimgtool::write_picture(
-            out, filename, [](float) {}, summary, error))
+    std::string warning;
+    if (pimgtool::write_picture(out, filename, [](float) {}, { summary, warning, error })) {
+        if (!warning.empty())
+            summary += "; " + warning;
         return true;
+    }
     error = format("cannot write \"{}\": {}", filename, error);
     return false;
 }

@@ -256,11 +256,11 @@ bool Window::write_screenshot(std::string& error) const
     for (int y = 0; y < height; ++y)
         image.set_pixels(OIIO::ROI(0, width, y, y + 1), OIIO::TypeUInt8,
                          &pixels[std::size_t(height - 1 - y) * std::size_t(width) * 3]);
-    std::string summary, problem;
+    std::string summary, warning, problem;
     const pimgtool::OutputPicture out { image, { OIIO::TypeUInt8, {} }, false, false };
     if (pimgtool::can_write(m_arguments.screenshot, problem)
         && pimgtool::write_picture(
-            out, m_arguments.screenshot, [](float) {}, summary, problem))
+            out, m_arguments.screenshot, [](float) {}, { summary, warning, problem }))
         return true;
     error = format("cannot write \"{}\": {}", m_arguments.screenshot, problem);
     return false;

@@ -50,8 +50,11 @@ bool on_hierarchy::wireframe(ImageBuf& dst, const ProgressiveImage& src, const W
             const std::vector<float> alpha = alpha_of(data);
             for (std::size_t i = 0; i < alpha.size(); ++i)
                 coverage[i] *= alpha[i];
-            for (std::vector<float>& channel : picture.channels)
+            for (std::vector<float>& channel : picture.channels) {
                 draw_over(coverage, channel);
+                for (std::size_t i = 0; i < alpha.size(); ++i)
+                    channel[i] = alpha[i] > 0.0f ? channel[i] : 0.0f;  // triangles of a level reach over the edge
+            }
         } else {
             for (float& c : coverage)
                 c = 1.0f - c;

@@ -103,18 +103,22 @@ TEST(Segment, MeanKeepsTheMeanAndCopiesAlpha)
         EXPECT_NEAR(sums[0][c], sums[1][c], 1e-5 * sums[0][c]);
 }
 
-TEST(Segment, IgnoresAlpha)
+/// Colours count without a soft alpha; one of nothing, or of all and more, changes none.
+TEST(Segment, IgnoresAlphaThatIsNotSoft)
 {
-    ImageBuf src = picture(64, 48, 4, TypeDesc::FLOAT);
-    const std::vector<Index> before = labels_of(iba::segment(src, options_of(20)));
-    for (int y = 0; y < 48; ++y)
-        for (int x = 0; x < 64; ++x) {
-            float p[4];
-            src.getpixel(x, y, p, 4);
-            p[3] = float((x * 31 + y * 17) % 5);
-            src.setpixel(x, y, p);
-        }
-    EXPECT_EQ(labels_of(iba::segment(src, options_of(20))), before);
+    std::vector<Index> labels[2];
+    for (int varied = 0; varied < 2; ++varied) {
+        ImageBuf src = picture(64, 48, 4, TypeDesc::FLOAT);
+        for (int y = 0; y < 48; ++y)
+            for (int x = 0; x < 64; ++x) {
+                float p[4];
+                src.getpixel(x, y, p, 4);
+                p[3] = varied != 0 ? float((x * 31 + y * 17) % 5) : 1.0f;
+                src.setpixel(x, y, p);
+            }
+        labels[varied] = labels_of(iba::segment(src, options_of(20)));
+    }
+    EXPECT_EQ(labels[0], labels[1]);
 }
 
 TEST(Segment, BoundariesAreWhereLabelsChange)
