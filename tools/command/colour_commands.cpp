@@ -253,28 +253,28 @@ bool context_variable(const Call& call, Program&, std::string& error)
 CommandGroup colour_group()
 {
     namespace iba = OIIO::ImageBufAlgo;
-    return { "Channels and colour",
-             {
-                 worded("--ch", "NAMES", "keeps only the named channels, in this order: R,G,B", channels),
-                 worded("--layer", "NAME", "says which layer is the picture, which is filtered and written as PNG",
-                        layer),
-                 worded("--unpremult", "", "divides colours by alpha", alpha_operation<iba::unpremult>),
-                 worded("--premult", "", "multiplies colours by alpha", alpha_operation<iba::premult>),
-                 worded("--incolorspace", "SPACE", "sets the colour space that the top picture is taken to be in",
-                        incolorspace),
-                 worded("--colorconvert", "FROM TO", "converts between colour spaces", colorconvert,
-                        check_colorconvert),
-                 worded("--tocolorspace", "SPACE", "converts from the picture's own colour space", tocolorspace,
-                        check_tocolorspace),
-                 worded("--ociodisplay", "DISPLAY VIEW",
-                        "applies OpenColorIO's display transform; either name may be \"default\"", ociodisplay,
-                        check_ociodisplay),
-                 general_setting("--ocio", "CONFIG", "OpenColorIO configuration to use instead of $OCIO",
-                                 colour_config_file),
-                 general_setting("--colorconfig", "CONFIG", "the same, as oiiotool spells it", colour_config_file),
-                 general_setting("--ociokey", "KEY=VALUE", "sets a variable of the configuration's context",
-                                 context_variable),
-             } };
+    return {
+        "Channels and colour",
+        {
+            worded("--ch", "NAMES", "keeps only the named channels, in this order: R,G,B", channels),
+            worded("--layer", "NAME", "says which layer is the picture, which is filtered and written as PNG", layer),
+            worded("--unpremult", "", "divides colours by alpha", alpha_operation<iba::unpremult>),
+            worded("--premult", "", "multiplies colours by alpha", alpha_operation<iba::premult>),
+            worded("--incolorspace", "SPACE", "sets the colour space that the top picture is taken to be in",
+                   incolorspace),
+            worded("--colorconvert", "FROM TO", "converts between colour spaces", colorconvert, check_colorconvert),
+            worded("--tocolorspace", "SPACE", "converts from the picture's own colour space", tocolorspace,
+                   check_tocolorspace),
+            worded("--ociodisplay", "DISPLAY VIEW",
+                   "applies OpenColorIO's display transform; either name may be \"default\"", ociodisplay,
+                   check_ociodisplay),
+            general_setting("--ocio", "CONFIG", "OpenColorIO configuration to use instead of $OCIO",
+                            colour_config_file),
+            general_setting("--colorconfig", "CONFIG", "the same, as oiiotool spells it", colour_config_file),
+            general_setting("--ociokey", "KEY=VALUE", "sets a variable of the configuration's context",
+                            context_variable),
+        }
+    };
 }
 
 }  // namespace pimgtool
