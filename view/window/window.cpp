@@ -190,6 +190,8 @@ bool Window::finished(std::string& error, bool& failed)
         m_first_picture = glfwGetTime();
     if (m_first_sliders == 0.0 && document.first_build_seconds > 0.0)
         m_first_sliders = glfwGetTime();
+    if (m_drag_begun > 0.0)
+        return measure();
     const bool settled = m_bench->studio.settled() && m_view->is_current(*m_bench);
     m_settled_frames = settled ? m_settled_frames + 1 : 0;
     constexpr int kFramesToSettle = 3;  // panels find their sizes in the second frame
