@@ -78,7 +78,7 @@ OIIO::ImageBuf reduced(const ImageBuf& pixels, int factor)
 std::vector<int> smaller_factors(int width, int height)
 {
     // A window of 1920 x 1200 beside the panels shows a million pixels and a half at most; a quarter of a million is
-    // built in a fifth of a second (measured: a megapixel a second).
+    // built in about 0.3 s (measured: 0.29 s on two cores that others used, too).
     constexpr double kWindow = 1.5e6, kQuick = 0.25e6;
     std::vector<int> factors;
     for (const double most : { kWindow, kQuick }) {
@@ -91,7 +91,7 @@ std::vector<int> smaller_factors(int width, int height)
 
 double build_bytes(double pixels)
 {
-    constexpr double kBytesPerPixel = 300.0;  // measured: 220 to 290 with three channels, at the peak
+    constexpr double kBytesPerPixel = 300.0;  // measured: 270 more for each pixel from 1 to 8 megapixels, at the peak
     return kBytesPerPixel * pixels;
 }
 

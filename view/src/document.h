@@ -81,7 +81,7 @@ private:
 OIIO::ImageBuf reduced(const OIIO::ImageBuf& pixels, int factor);
 
 /// The factors of the smaller copies of a picture: about as large as a window, and about as large as can be built within
-/// a fifth of a second.
+/// about a third of a second.
 std::vector<int> smaller_factors(int width, int height);
 
 /// Bytes of memory that building a picture takes at most.

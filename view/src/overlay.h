@@ -19,7 +19,7 @@ struct Line {
 
 /// Edges of the mesh with `vertices` vertices that touch a region.
 struct MeshLines {
-    static constexpr std::size_t kMost = 30000;  ///< drawn within a tenth of a second without a graphics card
+    static constexpr std::size_t kMost = 30000;  ///< more are a solid surface in a window; an estimate
 
     std::shared_ptr<const pimg::ProgressiveImage> image;  ///< it is of
     pimg::Index vertices = 0;
