@@ -261,8 +261,7 @@ bool Window::write_screenshot(std::string& error) const
     std::string summary, warning, problem;
     const pimgtool::OutputPicture out { image, { OIIO::TypeUInt8, {} }, false, false };
     if (pimgtool::can_write(m_arguments.screenshot, problem)
-        && pimgtool::write_picture(
-            out, m_arguments.screenshot, [](float) {}, { summary, warning, problem }))
+        && pimgtool::write_picture(out, m_arguments.screenshot, [](float) {}, { summary, warning, problem }))
         return true;
     error = format("cannot write \"{}\": {}", m_arguments.screenshot, problem);
     return false;
