@@ -148,6 +148,7 @@ Status Decoder::read(const std::vector<StridedChannel>& samples, ReadInfo* info,
             std::all_of(samples.begin(), samples.end(), [](const StridedChannel& p) { return p.data != nullptr; });
         if (found.exact && all && f.head.hash != 0 && f.limits.check_crc) {
             std::vector<ConstStridedChannel> written;
+            written.reserve(samples.size());
             for (const StridedChannel& p : samples)
                 written.push_back({ p.data, p.x_stride, p.y_stride });
             found.hash_checked = true;

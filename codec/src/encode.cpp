@@ -156,6 +156,7 @@ Status Encoder::make_mesh_layer(MeshLayerChunks& chunks)
                 z.push_back(float(v >> shift));
             values.push_back(to_mesh_pixels(*m_hierarchy, z.data()));
         }
+        pointers.reserve(values.size());
         for (const auto& v : values)
             pointers.push_back(v.data());
         std::vector<Bands> bands;

@@ -23,14 +23,14 @@ std::int64_t median(std::int64_t w, std::int64_t n, std::int64_t nw)
     return std::max(n + under, std::min(w + n - nw, w - under));
 }
 
-template<Shape shape>
+template<Shape Predicted>
 std::int64_t predict(std::int64_t w, std::int64_t n, std::int64_t nw, std::int64_t ne)
 {
-    if constexpr (shape == Shape::none)
+    if constexpr (Predicted == Shape::none)
         return 0;
-    else if constexpr (shape == Shape::left)
+    else if constexpr (Predicted == Shape::left)
         return w;
-    else if constexpr (shape == Shape::median)
+    else if constexpr (Predicted == Shape::median)
         return median(w, n, nw);
     else
         return (6 * w + 5 * n - 4 * nw + ne + 4) >> 3;
@@ -39,7 +39,7 @@ std::int64_t predict(std::int64_t w, std::int64_t n, std::int64_t nw, std::int64
 /// Visits the samples in row order with the prediction and the class of the residual to come. The class does not depend
 /// on the sample to the left: so a processor finds it while that one is still being decoded. visit(at, prediction,
 /// class) sets values[at] and returns the size of the residual.
-template<Shape shape, bool gouraud, class Visit>
+template<Shape Predicted, bool OverMesh, class Visit>
 void walk(const TileChannel& t, Visit&& visit)
 {
     const std::size_t up = std::size_t(t.width);
@@ -47,21 +47,21 @@ void walk(const TileChannel& t, Visit&& visit)
     const std::uint16_t* const guide = t.guide;
     std::uint16_t* const sizes = t.sizes;
     const auto difference = [values, mesh](std::size_t at) {
-        if constexpr (gouraud)
+        if constexpr (OverMesh)
             return std::int64_t(values[at]) - mesh[at];
         else
             return std::int64_t(values[at]);
     };
     const auto row = [&](std::size_t at, auto is_first) {
-        constexpr bool first = decltype(is_first)::value;
+        constexpr bool kFirst = decltype(is_first)::value;
         std::int64_t w = 0, ww = 0, n = 0, nw = 0, ne = 0, size_w = 0, size_ww = 0;
-        if constexpr (!first) {
+        if constexpr (!kFirst) {
             w = ww = n = nw = difference(at - up);
             size_w = size_ww = sizes[at - up];
         }
         for (const std::size_t end = at + up; at < end; ++at) {
             std::int64_t busy = 0;
-            if constexpr (first) {
+            if constexpr (kFirst) {
                 n = nw = ne = w;
                 busy = 4 * size_ww;
             } else {
@@ -72,8 +72,8 @@ void walk(const TileChannel& t, Visit&& visit)
             if (guide)
                 busy += 2 * std::int64_t(guide[at]);
             const std::uint32_t symbol_class = class_of(std::uint32_t(std::min<std::int64_t>(busy, 0xffffffffll)));
-            const std::int64_t base = gouraud ? std::int64_t(mesh[at]) : 0;
-            const std::uint32_t residual_size = visit(at, base + predict<shape>(w, n, nw, ne), symbol_class);
+            const std::int64_t base = OverMesh ? std::int64_t(mesh[at]) : 0;
+            const std::uint32_t residual_size = visit(at, base + predict<Predicted>(w, n, nw, ne), symbol_class);
             size_ww = size_w;
             size_w = std::min<std::uint32_t>(residual_size, 65535);
             sizes[at] = std::uint16_t(size_w);

@@ -122,7 +122,7 @@ void gather_channel(SampleType type, const ConstStridedChannel& channel, std::ui
     }
 }
 
-template<SampleType type, class T>
+template<SampleType Stored, class T>
 void scatter_channel(const std::int32_t* from, std::uint32_t width, std::uint32_t height, const StridedChannel& channel,
                      std::uint32_t x0, std::uint32_t y0)
 {
@@ -130,7 +130,7 @@ void scatter_channel(const std::int32_t* from, std::uint32_t width, std::uint32_
         auto* to = static_cast<std::uint8_t*>(channel.data) + std::ptrdiff_t(y0 + y) * channel.y_stride
             + std::ptrdiff_t(x0) * channel.x_stride;
         for (std::uint32_t x = 0; x < width; ++x, to += channel.x_stride) {
-            const T bits = T(to_bits(type, *from++));
+            const T bits = T(to_bits(Stored, *from++));
             std::memcpy(to, &bits, sizeof bits);
         }
     }
