@@ -25,9 +25,9 @@ std::vector<std::string> Properties::texts(const char* name) const
     int count = 0;
     if (!*this || m_suite->propGetDimension(m_handle, name, &count) != kOfxStatOK)
         count = 0;
-    std::vector<std::string> values;
+    std::vector<std::string> values(std::size_t(std::max(count, 0)));
     for (int i = 0; i < count; ++i)
-        values.push_back(text(name, i));
+        values[std::size_t(i)] = text(name, i);
     return values;
 }
 

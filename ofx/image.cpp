@@ -36,6 +36,17 @@ void for_all(int threads, std::size_t n, const std::function<void(std::size_t)>&
             body(i);
 }
 
+OIIO::ImageSpec spec_of(const Image& image, const OfxRectI& box)
+{
+    OIIO::ImageSpec spec(box.x2 - box.x1, box.y2 - box.y1, image.channels(), image.depth());
+    if (image.channels() == 1) {
+        // Otherwise alpha would pass through filters untouched.
+        spec.channelnames = { "Y" };
+        spec.alpha_channel = -1;
+    }
+    return spec;
+}
+
 }  // namespace
 
 OIIO::TypeDesc type_of_depth(const std::string& depth)
@@ -45,6 +56,11 @@ OIIO::TypeDesc type_of_depth(const std::string& depth)
         : depth == kOfxBitDepthShort  ? TypeDesc::UINT16
         : depth == kOfxBitDepthByte   ? TypeDesc::UINT8
                                       : TypeDesc::UNKNOWN;
+}
+
+bool operator==(const OfxRectI& a, const OfxRectI& b)
+{
+    return a.x1 == b.x1 && a.y1 == b.y1 && a.x2 == b.x2 && a.y2 == b.y2;
 }
 
 OfxRectI intersection(const OfxRectI& a, const OfxRectI& b)
@@ -83,12 +99,7 @@ OfxRectI Image::picture() const
 OIIO::ImageBuf picture_of(const Image& image, int threads)
 {
     const OfxRectI box = image.picture();
-    OIIO::ImageSpec spec(box.x2 - box.x1, box.y2 - box.y1, image.channels(), image.depth());
-    if (image.channels() == 1) {
-        // Otherwise alpha would pass through filters untouched.
-        spec.channelnames = { "Y" };
-        spec.alpha_channel = -1;
-    }
+    const OIIO::ImageSpec spec = spec_of(image, box);
     OIIO::ImageBuf picture(spec);
     const std::size_t row_bytes = std::size_t(spec.width) * image.pixel_bytes();
     for_all(threads, std::size_t(spec.height), [&](std::size_t row) {
@@ -98,6 +109,12 @@ OIIO::ImageBuf picture_of(const Image& image, int threads)
     if (image.is_unpremultiplied())
         pimg::run_without_foreign_tasks([&] { OIIO::ImageBufAlgo::premult(picture, picture); });
     return picture;
+}
+
+OIIO::ImageBuf canvas_of(const Image& output, const OfxRectI& picture)
+{
+    return OIIO::ImageBuf(spec_of(output, picture), output.address(picture.x1, picture.y2 - 1), OIIO::AutoStride,
+                          -OIIO::stride_t(output.row_bytes()));
 }
 
 std::uint64_t fingerprint(const Image& image, int threads)

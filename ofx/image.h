@@ -25,6 +25,7 @@ public:
 
     const OfxRectI& bounds() const { return m_bounds; }  ///< of the pixels in memory; y2 is above the last row
     OfxRectI picture() const;                            ///< those of them that are inside the region of definition
+    int row_bytes() const { return m_row_bytes; }
     int channels() const { return m_channels; }
     OIIO::TypeDesc depth() const { return m_depth; }
     bool has_alpha() const { return m_channels == 4; }
@@ -56,6 +57,7 @@ inline bool is_empty(const OfxRectI& r)
 {
     return r.x1 >= r.x2 || r.y1 >= r.y2;
 }
+bool operator==(const OfxRectI& a, const OfxRectI& b);
 OfxRectI intersection(const OfxRectI& a, const OfxRectI& b);
 
 /// The type of a word like kOfxBitDepthFloat; UNKNOWN for any other.
@@ -66,6 +68,10 @@ OIIO::ImageBuf picture_of(const Image& image, int threads);
 
 /// What is in that picture: a number for its pixels. Equal pictures of equal size have equal numbers.
 std::uint64_t fingerprint(const Image& image, int threads);
+
+/// The pixels of `picture` in `output`, top row first: a result may be written there directly if it has the output's depth
+/// and channels.
+OIIO::ImageBuf canvas_of(const Image& output, const OfxRectI& picture);
 
 /// A result and where it is to go.
 struct Placement {

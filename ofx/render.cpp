@@ -157,13 +157,9 @@ public:
             hierarchy_of(m_instance, source, m_request.time, key, error);
         if (hierarchy == nullptr)
             return false;
-        const std::shared_ptr<const KeptResult> result =
-            result_of(filter, *hierarchy, source, output, key + joined(options), error);
+        const bool done = make(filter, *hierarchy, source, output, key + joined(options), error);
         shared_cache().measure(key);
-        if (result == nullptr)
-            return false;
-        write(filter, *result, source, output);
-        return true;
+        return done;
     }
 
 private:
@@ -177,7 +173,7 @@ private:
         const auto make = [&](std::string& why) {
             return run(filter, hierarchy.image, output.depth(), threads, why);
         };
-        if (part.x1 == whole.x1 && part.x2 == whole.x2 && part.y1 == whole.y1 && part.y2 == whole.y2)
+        if (part == whole)
             return make(error);
         const std::string key =
             std::string(m_instance.effect().filter->name) + " " + output.depth().c_str() + " " + options;
@@ -185,14 +181,36 @@ private:
             key, make, [&] { return m_instance.host().is_aborted(m_instance.handle()); }, error));
     }
 
-    void write(const pimg::BoundFilter& filter, const KeptResult& result, const Image& source, const Image& output)
+    bool make(const pimg::BoundFilter& filter, const KeptHierarchy& hierarchy, const Image& source, const Image& output,
+              const std::string& options, std::string& error)
     {
         Placement placement = m_request.placement;
         placement.picture = source.picture();
         placement.is_labels = filter.output == pimg::FilterOutput::labels;
         placement.has_colours = !placement.is_labels && filter.output != pimg::FilterOutput::mask;
         choose_rows(m_in, output, placement);
-        write_result(result.pixels, source, placement, output, m_instance.host().threads());
+        const int threads = m_instance.host().threads();
+        if (fits(placement, source, output)) {
+            OIIO::ImageBuf canvas = canvas_of(output, placement.picture);
+            if (filter(canvas, hierarchy.image, OIIO::ROI(), threads))
+                return true;
+            error = canvas.geterror();
+            return false;
+        }
+        const std::shared_ptr<const KeptResult> result = result_of(filter, hierarchy, source, output, options, error);
+        if (result != nullptr)
+            write_result(result->pixels, source, placement, output, threads);
+        return result != nullptr;
+    }
+
+    /// Whether the filter can write to the host's own memory, which saves a copy.
+    static bool fits(const Placement& placement, const Image& source, const Image& output)
+    {
+        const OfxRectI& whole = placement.picture;
+        return placement.has_colours && placement.row_step == 1 && placement.window == whole
+            && intersection(whole, output.bounds()) == whole && source.depth() == OIIO::TypeDesc::FLOAT
+            && output.depth() == OIIO::TypeDesc::FLOAT && source.channels() == output.channels()
+            && !output.is_unpremultiplied();
     }
 
     Instance& m_instance;

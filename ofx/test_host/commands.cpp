@@ -190,7 +190,8 @@ public:
             : field == "upper"           ? kOfxImageFieldUpper
                                          : kOfxImageFieldNone;
         const OfxStatus status = m_instance->render(options, picture);
-        std::printf("%.1f ms\n", 1000.0 * m_instance->render_seconds());
+        std::printf("%.1f ms, %.1f of processors\n", 1000.0 * m_instance->render_seconds(),
+                    1000.0 * m_instance->processor_seconds());
         if (status != kOfxStatOK)
             error = "render returned " + std::to_string(status) + ": " + m_instance->effect().message;
         return status == kOfxStatOK;

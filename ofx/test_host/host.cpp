@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <thread>
 
 #include <OpenImageIO/filesystem.h>
@@ -242,6 +243,7 @@ OfxStatus Instance::render_window(const RenderOptions& options, const OfxRectI& 
     in.define(kOfxImageEffectPropInteractiveRenderStatus, 1, { 0 });
     in.define(kOfxImageEffectPropRenderQualityDraft, 1, { 0 });
     output_of_this_thread() = &output;
+    const std::clock_t clock = std::clock();
     const auto start = std::chrono::steady_clock::now();
     const OfxStatus status = action(kOfxImageEffectActionRender, &in, nullptr);
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
@@ -250,6 +252,7 @@ OfxStatus Instance::render_window(const RenderOptions& options, const OfxRectI& 
         violation("a render wrote beyond the ends of rows");
     const std::lock_guard<std::mutex> lock(m_mutex);
     m_seconds += taken.count();
+    m_processor_seconds += double(std::clock() - clock) / CLOCKS_PER_SEC;
     if (status == kOfxStatOK)
         add_to_picture(output, picture, whole);
     return status;
@@ -261,7 +264,7 @@ OfxStatus Instance::render(const RenderOptions& options, OIIO::ImageBuf& picture
     const int step = options.tile > 0 ? options.tile : std::max(whole.x2 - whole.x1, whole.y2 - whole.y1);
     {
         const std::lock_guard<std::mutex> lock(m_mutex);
-        m_seconds = 0.0;
+        m_seconds = m_processor_seconds = 0.0;
     }
     m_footage->image(options.time);
     std::vector<OfxRectI> windows;

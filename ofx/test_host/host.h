@@ -66,7 +66,8 @@ public:
 
     /// Sends the actions a render consists of and adds the tiles to `picture`.
     OfxStatus render(const RenderOptions& options, OIIO::ImageBuf& picture);
-    double render_seconds() const { return m_seconds; }  ///< of the render actions of the last render()
+    double render_seconds() const { return m_seconds; }               ///< of the render actions of the last render()
+    double processor_seconds() const { return m_processor_seconds; }  ///< of the whole process meanwhile
     OfxStatus press(const std::string& button, double time);
     OfxStatus clip_preferences();
     OfxStatus output_colourspace(std::string& space);
@@ -81,7 +82,7 @@ private:
     const Footage* m_footage;
     Effect m_effect;
     OfxStatus m_status = kOfxStatFailed;
-    double m_seconds = 0.0;
+    double m_seconds = 0.0, m_processor_seconds = 0.0;
     std::mutex m_mutex;
 };
 
