@@ -57,11 +57,13 @@ int main(int argc, char** argv)
     const Words words = words_of(argc - 3, argv + 3);
     std::string error = "unknown command " + command;
     bool fine = false;
-    for (const auto& [name, function] : { std::pair("list", list),
-                                          { "describe", describe },
-                                          { "render", render },
-                                          { "stress", stress },
-                                          { "misuse", misuse } })
+    const struct {
+        const char* name;
+        bool (*function)(const std::string&, const Words&, std::string&);
+    } commands[] = {
+        { "list", list }, { "describe", describe }, { "render", render }, { "stress", stress }, { "misuse", misuse }
+    };
+    for (const auto& [name, function] : commands)
         if (command == name)
             fine = function(argv[1], words, error);
     if (!fine)
