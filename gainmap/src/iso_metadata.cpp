@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "big_endian.h"
 #include "gain_metadata.h"
 
 namespace pimg {
@@ -15,16 +16,10 @@ constexpr unsigned kManyChannels = 0x80, kBaseColourSpace = 0x40, kCommonDenomin
 /// Fractions of a millionth: finer than any 8-bit map shows, and 32 stops fit.
 constexpr std::uint32_t kDenominator = 1000000;
 
-void append_number(std::string& bytes, std::uint32_t number, int size)
-{
-    for (int shift = 8 * (size - 1); shift >= 0; shift -= 8)
-        bytes.push_back(char(number >> shift & 0xFF));
-}
-
 void append_fraction(std::string& bytes, double value)
 {
-    append_number(bytes, std::uint32_t(std::int32_t(std::lround(value * kDenominator))), 4);
-    append_number(bytes, kDenominator, 4);
+    append_big_endian(bytes, std::uint32_t(std::int32_t(std::lround(value * kDenominator))), 4);
+    append_big_endian(bytes, kDenominator, 4);
 }
 
 /// Reads numbers one after the other; behind the end everything is 0 and fine() false.
@@ -75,16 +70,16 @@ void read_channel(Reader& reader, GainChannel& channel)
 std::string iso_gain_version()
 {
     std::string bytes;
-    append_number(bytes, 0, 2);  // the least version a reader must know
-    append_number(bytes, 0, 2);  // the version of the writer
+    append_big_endian(bytes, 0, 2);  // the least version a reader must know
+    append_big_endian(bytes, 0, 2);  // the version of the writer
     return bytes;
 }
 
 std::string iso_gain_metadata(const GainMetadata& metadata)
 {
     std::string bytes = iso_gain_version();
-    append_number(bytes,
-                  (metadata.channels > 1 ? kManyChannels : 0) | (metadata.base_colour_space ? kBaseColourSpace : 0), 1);
+    append_big_endian(
+        bytes, (metadata.channels > 1 ? kManyChannels : 0) | (metadata.base_colour_space ? kBaseColourSpace : 0), 1);
     append_fraction(bytes, metadata.base_headroom);
     append_fraction(bytes, metadata.alternate_headroom);
     for (int c = 0; c < metadata.channels; ++c) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "multi_picture.h"
 
+#include "big_endian.h"
+
 namespace pimg {
 
 namespace {
@@ -12,25 +14,19 @@ constexpr std::uint32_t kPrimaryPicture = 0x030000;  ///< "Baseline MP Primary I
 constexpr std::size_t kEntrySize = 16, kHeaderSize = 8, kTagSize = 12;
 constexpr std::uint32_t kMostPictures = 64;  ///< of an index that is looked at: more are no gain-map file
 
-void append(std::string& bytes, std::uint32_t number, int size)
-{
-    for (int shift = 8 * (size - 1); shift >= 0; shift -= 8)
-        bytes.push_back(char(number >> shift & 0xFF));
-}
-
 void append_tag(std::string& bytes, std::uint16_t tag, std::uint16_t type, std::uint32_t count)
 {
-    append(bytes, tag, 2);
-    append(bytes, type, 2);
-    append(bytes, count, 4);
+    append_big_endian(bytes, tag, 2);
+    append_big_endian(bytes, type, 2);
+    append_big_endian(bytes, count, 4);
 }
 
 void append_entry(std::string& bytes, std::uint32_t attributes, const IndexedPicture& picture)
 {
-    append(bytes, attributes, 4);
-    append(bytes, picture.size, 4);
-    append(bytes, picture.offset, 4);
-    append(bytes, 0, 4);  // no dependent pictures
+    append_big_endian(bytes, attributes, 4);
+    append_big_endian(bytes, picture.size, 4);
+    append_big_endian(bytes, picture.offset, 4);
+    append_big_endian(bytes, 0, 4);  // no dependent pictures
 }
 
 /// Numbers of a TIFF structure in either order of bytes; 0 behind the end.
@@ -64,15 +60,15 @@ std::string multi_picture_index(std::uint32_t first_size, const IndexedPicture& 
     constexpr std::uint32_t kEntriesAt = kHeaderSize + 2 + kTags * kTagSize + 4;
     static_assert(kIndexSize == kEntriesAt + 2 * kEntrySize, "the index has one size");
     std::string bytes("MM\0*", 4);
-    append(bytes, kHeaderSize, 4);
-    append(bytes, kTags, 2);
+    append_big_endian(bytes, kHeaderSize, 4);
+    append_big_endian(bytes, kTags, 2);
     append_tag(bytes, kVersionTag, kUndefined, 4);
     bytes += "0100";
     append_tag(bytes, kCountTag, kLong, 1);
-    append(bytes, 2, 4);
+    append_big_endian(bytes, 2, 4);
     append_tag(bytes, kEntriesTag, kUndefined, 2 * kEntrySize);
-    append(bytes, kEntriesAt, 4);
-    append(bytes, 0, 4);  // no further directory
+    append_big_endian(bytes, kEntriesAt, 4);
+    append_big_endian(bytes, 0, 4);  // no further directory
     append_entry(bytes, kPrimaryPicture, { 0, first_size });
     append_entry(bytes, 0, second);
     return bytes;

@@ -81,12 +81,18 @@ std::string prefix_of(const pugi::xml_document& document, const char* space, con
     return usual;
 }
 
+/// The element that holds a property, as an attribute or as itself.
+pugi::xml_node find_property(const pugi::xml_document& document, const std::string& name)
+{
+    return document.find_node(
+        [&](const pugi::xml_node& candidate) { return candidate.attribute(name.c_str()) || name == candidate.name(); });
+}
+
 /// The values of a property, which is an attribute, an element, or an element with a sequence of elements.
 std::vector<double> values_of(const pugi::xml_document& document, const std::string& name)
 {
     std::vector<double> values;
-    const pugi::xml_node node = document.find_node(
-        [&](const pugi::xml_node& candidate) { return candidate.attribute(name.c_str()) || name == candidate.name(); });
+    const pugi::xml_node node = find_property(document, name);
     const auto add = [&](const char* text) {
         char* end = nullptr;
         const double value = std::strtod(text, &end);
@@ -119,8 +125,7 @@ bool read_property(const std::vector<double>& values, double GainChannel::*membe
 bool is_hdr_base(const pugi::xml_document& document, const std::string& prefix)
 {
     const std::string name = prefix + "BaseRenditionIsHDR";
-    const pugi::xml_node node = document.find_node(
-        [&](const pugi::xml_node& candidate) { return candidate.attribute(name.c_str()) || name == candidate.name(); });
+    const pugi::xml_node node = find_property(document, name);
     const std::string_view value =
         node.attribute(name.c_str()) ? node.attribute(name.c_str()).value() : node.child_value();
     return value == "True" || value == "true";
