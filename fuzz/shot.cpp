@@ -9,10 +9,10 @@
 
 #include <pimg/detail/format.h>
 
-#include "session/shot.h"
+#include "shot.h"
 #include "taken.h"
 
-using namespace pimgtool;
+using namespace pimg;
 
 namespace {
 

@@ -7,14 +7,14 @@
 #include <pimg/imagebufalgo.h>
 
 #include "colour_space.h"
-#include "session/shot.h"
+#include "shot.h"
 
 namespace pimg_ofx {
 
 namespace {
 
+using pimg::Anchors;
 using pimg::HdrCompressOptions;
-using pimgtool::Anchors;
 
 /// A sequence of more frames than this is no shot; pimgtool has the same limit.
 constexpr int kMostFrames = 100000;
@@ -88,7 +88,7 @@ bool frames_of(const Instance& instance, int& first, int& last, std::string& err
     return true;
 }
 
-bool measure(Instance& instance, int first, int last, pimgtool::Shot& shot, std::string& error)
+bool measure(Instance& instance, int first, int last, pimg::Shot& shot, std::string& error)
 {
     for (int frame = first; frame <= last; ++frame) {
         const Host& host = instance.host();
@@ -105,7 +105,7 @@ bool measure(Instance& instance, int first, int last, pimgtool::Shot& shot, std:
     return true;
 }
 
-void set_keys(Instance& instance, int first, int last, const pimgtool::Shot& shot, const pimgtool::ShotOptions& options)
+void set_keys(Instance& instance, int first, int last, const pimg::Shot& shot, const pimg::ShotOptions& options)
 {
     const OfxParameterSuiteV1& suite = instance.host().parameters();
     const Edit edit(instance, "Analyse shot");
@@ -146,11 +146,11 @@ bool show_found(Instance& instance, OfxTime time, std::string& error)
 bool analyse_shot(Instance& instance, std::string& error)
 {
     int first = 0, last = 0;
-    pimgtool::ShotOptions options;
+    pimg::ShotOptions options;
     if (!frames_of(instance, first, last, error)
         || !pimg::set_options(options, instance.options(Owner::shot, OfxTime(first)), error))
         return false;
-    pimgtool::Shot shot;
+    pimg::Shot shot;
     instance.host().begin_progress(instance.handle(), "Analysing the shot");
     const bool measured = measure(instance, first, last, shot, error);
     instance.host().end_progress(instance.handle());

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "effect.h"
-#include "host.h"
+#include "host/host.h"
 
 namespace pimg_ofx {
 

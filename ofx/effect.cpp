@@ -8,7 +8,7 @@
 #include <OpenImageIO/strutil.h>
 
 #include "analysis.h"
-#include "session/shot.h"
+#include "shot.h"
 
 namespace pimg_ofx {
 
@@ -60,7 +60,7 @@ Effect effect_of(const pimg::Filter& filter)
             effect.parameters.push_back(parameter(option, Owner::build));
     if (filter.name == std::string("hdr_compress")) {
         effect.found = found_keys();
-        for (const pimg::OptionInfo& option : pimg::describe_options<pimgtool::ShotOptions>())
+        for (const pimg::OptionInfo& option : pimg::describe_options<pimg::ShotOptions>())
             if (option.key == "mode" || option.key == "radius")
                 effect.parameters.push_back(parameter(option, Owner::shot));
     }

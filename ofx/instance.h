@@ -10,8 +10,8 @@
 #include <pimg/filter_table.h>
 
 #include "effect.h"
-#include "host.h"
-#include "image.h"
+#include "host/host.h"
+#include "host/image.h"
 
 namespace pimg_ofx {
 

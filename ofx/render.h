@@ -8,7 +8,7 @@
 #include <pimg/progressive_image.h>
 
 #include "cache.h"
-#include "image.h"
+#include "host/image.h"
 #include "instance.h"
 
 namespace pimg_ofx {

@@ -238,7 +238,7 @@ py::dict resolve_hdr_compress(const Progressive& progressive, int nthreads, cons
     py::dict result;
     for (const Option<HdrCompressOptions>& option : option_table<HdrCompressOptions>())
         result[option.rule.key] =
-            std::visit([](const auto& value) { return py::object(py::cast(value)); }, get_option(options, option));
+            std::visit([](const auto& value) { return py::object(py::cast(value)); }, option.get(options));
     return result;
 }
 

@@ -82,7 +82,7 @@ bool answer(const std::vector<std::string>& arguments, int& status)
 }
 
 /// The figures of the shot, measured now if they have to be.
-bool find_shot(const Program& settings, const std::vector<Program>& programs, Stats& stats, Shot& shot,
+bool find_shot(const Program& settings, const std::vector<Program>& programs, Stats& stats, pimg::Shot& shot,
                std::string& error)
 {
     if (OIIO::Filesystem::exists(settings.shot_file) && !settings.shot.update) {
@@ -116,7 +116,7 @@ bool run(const Program& settings, const std::vector<Program>& programs, std::str
     OIIO::attribute("threads", programs[0].threads);
     OIIO::attribute("exr_threads", programs[0].threads);
     Stats stats;
-    Shot shot;
+    pimg::Shot shot;
     const bool has_shot = !settings.shot_file.empty();
     if (has_shot && !find_shot(settings, programs, stats, shot, error)) {
         error = "--shot-stats: " + error;

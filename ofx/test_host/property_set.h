@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "../ofx_abi.h"
+#include "abi/ofx_abi.h"
 
 namespace test_host {
 

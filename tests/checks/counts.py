@@ -17,8 +17,7 @@ UNCOUNTED_FUNCTIONS = ("tests/", "bench/")
 PUBLIC_PARAMETERS = 5
 PARAMETERS = 8
 FILE_LINES = 600
-# A header and the source of the same name count once.
-FOLDER_NOUNS = 20
+FOLDER_FILES = 20
 
 # Longer than FILE_LINES, with the reason.
 LONG_FILES = {
@@ -120,12 +119,9 @@ def check_files(tree):
 
 
 def check_folders(tree):
-    nouns = collections.defaultdict(set)
-    for path in tree.ending(*CPP):
-        folder, name = os.path.split(path)
-        nouns[folder].add(os.path.splitext(name)[0])
-    return [Finding(folder, 1, f"{len(names)} nouns in one folder; {FOLDER_NOUNS} are allowed")
-            for folder, names in sorted(nouns.items()) if len(names) > FOLDER_NOUNS]
+    files = collections.Counter(os.path.dirname(path) for path in tree.ending(*CPP, *SCRIPTS))
+    return [Finding(folder, 1, f"{count} sources in one folder; {FOLDER_FILES} are allowed")
+            for folder, count in sorted(files.items()) if count > FOLDER_FILES]
 
 
 def check_paths(tree):

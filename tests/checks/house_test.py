@@ -119,10 +119,9 @@ class Counts(InTree):
         self.assert_finds(counts.check(self.tree(core__src__x_cpp="\n" * counts.FILE_LINES)), "are allowed")
 
     def test_full_folders(self):
-        names = {f"core__src__mesh__x{i}_cpp": "" for i in range(counts.FOLDER_NOUNS)}
-        headers = {f"core__src__mesh__x{i}_h": "" for i in range(counts.FOLDER_NOUNS)}
-        self.assertEqual(counts.check(self.tree(**names, **headers)), [])
-        self.assert_finds(counts.check(self.tree(core__src__mesh__one_more_cpp="")), "nouns in one folder")
+        files = {f"core__src__mesh__x{i}_{end}": "" for i in range(counts.FOLDER_FILES // 2) for end in ("cpp", "h")}
+        self.assertEqual(counts.check(self.tree(**files, core__src__sweep__x_cpp="")), [])
+        self.assert_finds(counts.check(self.tree(core__src__mesh__one_more_cpp="")), "sources in one folder")
 
     def test_licence_line(self):
         tree = self.tree(core__src__x_cpp="")
@@ -132,7 +131,6 @@ class Counts(InTree):
     def test_paths_of_one_machine(self):
         self.assert_finds(counts.check(self.tree(core__src__x_cpp="// see /ho" + "me/someone/notes")), "one machine")
         self.assertEqual(counts.check(self.tree(core__src__x_cpp="// see docs/home/page and /tmp/x")), [])
-
 
     def test_functions_that_differ_between_libraries(self):
         tree = self.tree(painting__src__x_cpp="float f(float x) { return std::pow(x, 2.0f); }",

@@ -25,28 +25,35 @@ ROOMS = {
     "filters/src/colour": ["filters/src/base", "core"],
     "filters/src/source": ["filters/src/base", "filters/src/colour", "core"],
     "filters/src/frame": ["filters/src/base", "filters/src/colour", "filters/src/source", "core"],
-    "filters/src/ops": ["filters/src/base", "filters/src/colour", "filters/src/source", "filters/src/frame", "painting",
-                        "core"],
+    "filters/src/ops": ["filters/src/base", "filters/src/colour", "filters/src/source", "filters/src/frame", "core"],
+    "filters/src/ops/painting": ["filters/src/base", "filters/src/colour", "filters/src/source", "filters/src/frame",
+                                 "painting", "core"],
+    "filters/src/ops/regions": ["filters/src/base", "filters/src/colour", "filters/src/source", "filters/src/frame",
+                                "core"],
     "filters/src": ["filters", "core"],
     "umbrella": ["gainmap", "filters", "painting", "codec", "core"],
     "gainmap": ["filters", "core"],
     "plugin": ["filters", "codec", "core"],
-    "tools/session": ["tools/session/shot", "tools/session/scenes", "gainmap", "plugin", "filters", "codec", "core"],
-    "tools/command": ["tools/session", "plugin", "filters", "codec", "core"],
-    "tools": ["tools/command", "tools/session", "plugin", "filters", "codec", "core"],
-    "view/src": ["tools", "plugin", "filters", "codec", "core"],
-    "view/window": ["view/src", "tools", "plugin", "filters", "codec", "core"],
+    "shot": ["filters", "core"],
+    "tools/session": ["shot", "gainmap", "plugin", "filters", "codec", "core"],
+    "tools/command": ["tools/session", "shot", "plugin", "filters", "codec", "core"],
+    "tools": ["tools/command", "tools/session", "shot", "plugin", "filters", "codec", "core"],
+    "view/src/state": ["tools", "plugin", "filters", "codec", "core"],
+    "view/src/render": ["view/src/state", "tools", "plugin", "filters", "codec", "core"],
+    "view/src/display": ["view/src/render", "view/src/state", "tools", "plugin", "filters", "codec", "core"],
+    "view/src": ["view/src/state", "view/src/render", "view/src/display", "tools", "plugin", "filters", "codec", "core"],
+    "view/window/gl": ["view/src/render", "view/src/state", "filters", "core"],
+    "view/window": ["view/window/gl", "view/src", "tools", "plugin", "filters", "codec", "core"],
     "python": ["gainmap", "plugin", "filters", "codec", "core"],
     "capi": ["filters", "core"],
     "gegl": ["filters", "core"],
-    "tools/session/scenes": [],
-    "tools/session/shot": ["tools/session/scenes", "filters", "core"],
-    "ofx/ofx_abi": ["ofx"],
-    "ofx": ["ofx/ofx_abi", "tools/session/shot", "filters", "core"],
-    "ofx/test_host": ["ofx/ofx_abi"],
+    "ofx/abi": [],
+    "ofx/host": ["ofx/abi", "filters", "core"],
+    "ofx": ["ofx/host", "ofx/abi", "shot", "filters", "core"],
+    "ofx/test_host": ["ofx/abi"],
     "examples": ["filters", "core", "capi"],
     "bench": ["filters", "painting", "codec", "core"],
-    "tests": ["gainmap", "plugin", "tools", "view", "filters", "painting", "codec", "core", "capi"],
+    "tests": ["gainmap", "plugin", "shot", "tools", "view", "filters", "painting", "codec", "core", "capi"],
 }
 
 # Where a public header without a source of the same name is: in the lowest room of its library, or here.
@@ -54,14 +61,13 @@ LOWEST = {"core": "core/src/mesh", "codec": "codec/include", "filters": "filters
           "gainmap": "gainmap", "capi": "capi"}
 HEADERS = {
     "filters/include/pimg/pimg.hpp": "umbrella",
-    "filters/include/pimg/imagebufalgo.h": "filters/src/ops",
-    "filters/include/pimg/detail/filter_forms.h": "filters/src/frame",
+    "filters/include/pimg/imagebufalgo.h": "filters/src/frame",
 }
 
 # Generated or umbrella headers, which belong to no room.
 GENERATED = {"pimg/version.h": "core"}
 
-# In place of ofx/ofx_abi_types.h, where somebody has them.
+# In place of ofx/abi/ofx_abi_types.h, where somebody has them.
 OFFICIAL_OFX = ["ofxColour.h", "ofxCore.h", "ofxImageEffect.h", "ofxMemory.h", "ofxMessage.h", "ofxMultiThread.h",
                 "ofxParam.h", "ofxProgress.h", "ofxProperty.h", "ofxTimeLine.h"]
 
@@ -75,7 +81,8 @@ FOREIGN = {
     "filters/src/colour": ["OpenImageIO", "hwy", "OpenColorIO", "lcms2.h"],
     "gainmap": ["OpenImageIO", "pugixml.hpp"],
     "plugin": ["OpenImageIO"],
-    "tools": ["OpenImageIO", "boost"],
+    "shot": ["OpenImageIO", "boost"],
+    "tools": ["OpenImageIO"],
     "view/src": ["OpenImageIO"],
     "view/window": ["OpenImageIO", "OpenColorIO", "GLFW", "imgui.h", "imgui_stdlib.h", "backends"],
     "python": ["OpenImageIO", "pybind11", "Python.h"],
@@ -143,7 +150,7 @@ class Rooms:
             if candidate in self.present:
                 return candidate
         # Headers of the plugin, which is a library for the tools and for Python.
-        for folder in ("plugin", "tools", "view/src", "core/src", "filters/src", "codec/src", "painting/src"):
+        for folder in ("plugin", "shot", "tools", "view/src", "view/window", "core/src", "filters/src", "codec/src", "painting/src"):
             if f"{folder}/{target}" in self.present:
                 return f"{folder}/{target}"
         return None

@@ -11,7 +11,6 @@
 
 #include "command/help.h"
 #include "command/sequence.h"
-#include "session/shot.h"
 
 namespace {
 
@@ -258,23 +257,6 @@ TEST(Sequence, NamesOfFrames)
     EXPECT_EQ(for_frame("a.#.%V.%04d", view), "a.#.right.%04d");
     EXPECT_EQ(for_frame("a.#", { -3, "", true }), "a.-0003");
     EXPECT_EQ(for_frame("%V#", {}), "%V#");
-}
-
-TEST(Shot, SmoothFollowsADriftToItsEndsAndLockDoesNot)
-{
-    Shot shot;
-    for (int frame = 1; frame <= 24; ++frame) {
-        const float drift = std::exp2(0.02f * float(frame)), noise = std::exp2(frame % 2 ? 0.05f : -0.05f);
-        shot.add(frame, { 4.0f, drift * noise, 0.0f });
-    }
-    ShotOptions smooth, lock;
-    lock.mode = "lock";
-    for (int frame : { 1, 2, 12, 23, 24 }) {
-        EXPECT_NEAR(std::log2(shot.anchors(frame, smooth).key), 0.02f * float(frame), 0.015f) << frame;
-        EXPECT_NEAR(std::log2(shot.anchors(frame, lock).key), 0.25f, 1e-3f) << frame;
-        EXPECT_FLOAT_EQ(shot.anchors(frame, smooth).dmax, 4.0f);
-        EXPECT_EQ(shot.anchors(frame, smooth).white, 0.0f);  // none was found in any
-    }
 }
 
 TEST(Help, FitsATerminal)

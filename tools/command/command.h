@@ -57,7 +57,7 @@ struct Program {
     std::vector<std::string> views;
     bool parallel_frames = false;
     std::string shot_file;  ///< empty: none
-    ShotOptions shot;
+    pimg::ShotOptions shot;
 };
 
 /// One row of the command table.

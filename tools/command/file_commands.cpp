@@ -156,7 +156,7 @@ bool shot_stats(const Call& call, Program& settings, std::string& error)
 {
     settings.shot_file = call.words[0];
     if (!settings.shot_file.empty() && !OIIO::Filesystem::is_directory(settings.shot_file))
-        return pimg::set_options(settings.shot, call.keys, error) && Shot::check_cuts(settings.shot.cuts, error);
+        return pimg::set_options(settings.shot, call.keys, error) && pimg::Shot::check_cuts(settings.shot.cuts, error);
     error = format("\"{}\": expected a file's name", settings.shot_file);
     return false;
 }
@@ -179,7 +179,7 @@ CommandGroup sequence_group()
                             parallel_frames),
             general_setting("--shot-stats", "FILE",
                             "--hdr-compress exposes the frames alike, as FILE says; measured first if there is no FILE",
-                            shot_stats, pimg::describe_options<ShotOptions>),
+                            shot_stats, pimg::describe_options<pimg::ShotOptions>),
         }
     };
 }

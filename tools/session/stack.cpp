@@ -71,14 +71,6 @@ bool turn_upright(OIIO::ImageBuf& pixels)
     return true;
 }
 
-bool same_options(const pimg::BuildOptions& a, const pimg::BuildOptions& b)
-{
-    for (const pimg::Option<pimg::BuildOptions>& option : pimg::option_table<pimg::BuildOptions>())
-        if (pimg::get_option(a, option) != pimg::get_option(b, option))
-            return false;
-    return true;
-}
-
 std::string label(const char* doing, const std::string& filename)
 {
     return format("{} {}", doing, OIIO::Filesystem::filename(filename));
@@ -209,7 +201,7 @@ bool Session::write(const std::string& filename, const pimg::io::WriteOptions& o
 bool Session::build(const pimg::BuildOptions& options)
 {
     // Copies made earlier keep theirs.
-    if (!same_options(top().hierarchy->options, options))
+    if (!pimg::same_options(top().hierarchy->options, options))
         top().hierarchy = std::make_shared<LazyHierarchy>(LazyHierarchy { options, nullptr, {} });
     return hierarchy_of_top() != nullptr;
 }
@@ -267,7 +259,7 @@ bool Session::hdr_compress(pimg::HdrCompressOptions options)
         if (!iba::resolve_hdr_compress(*top().pixels, options, m_error, top().hierarchy->options))
             return false;
         float light = 0.0f;
-        if (!median_light(*top().pixels, top().hierarchy->options.incolorspace, light, m_error))
+        if (!pimg::median_light(*top().pixels, top().hierarchy->options.incolorspace, light, m_error))
             return false;
         if (light > 0.0f)  // else nothing was measured
             anchors = { options.dmax, options.key, options.white, light };

@@ -14,8 +14,8 @@
 
 #include "session/output.h"
 #include "session/pimg_file.h"
-#include "session/shot.h"
 #include "session/stats.h"
+#include "shot.h"
 
 namespace pimgtool {
 
@@ -83,7 +83,7 @@ public:
     bool verbose = false;
     bool upright = true;  ///< pictures are turned as their metadata ask while they are read
 
-    Anchors anchors;         ///< of the frame, known from the shot or measured
+    pimg::Anchors anchors;   ///< of the frame, known from the shot or measured
     bool measuring = false;  ///< the anchors are to be found, nothing else
     bool measured = false;
 

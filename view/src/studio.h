@@ -8,10 +8,10 @@
 #include <mutex>
 #include <string>
 
-#include "document.h"
-#include "frame.h"
-#include "overlay.h"
-#include "scopes.h"
+#include "display/overlay.h"
+#include "display/scopes.h"
+#include "render/document.h"
+#include "render/frame.h"
 
 namespace pimgview {
 

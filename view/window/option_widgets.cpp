@@ -12,7 +12,7 @@
 
 #include <pimg/detail/format.h>
 
-#include "filter_stack.h"
+#include "state/filter_stack.h"
 
 namespace pimgview {
 

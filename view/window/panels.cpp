@@ -12,9 +12,9 @@
 
 #include <pimg/detail/format.h>
 
-#include "command_line.h"
-#include "file_list.h"
 #include "option_widgets.h"
+#include "state/command_line.h"
+#include "state/file_list.h"
 
 namespace pimgview {
 

@@ -2,7 +2,7 @@
 // The panels beside the picture.
 #pragma once
 
-#include "colour_shader.h"
+#include "gl/colour_shader.h"
 #include "workbench.h"
 
 namespace pimgview {

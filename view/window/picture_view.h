@@ -2,10 +2,10 @@
 // The picture on the screen, and what the mouse does to it.
 #pragma once
 
-#include "colour_shader.h"
+#include "display/viewport.h"
+#include "gl/colour_shader.h"
+#include "gl/tiled_texture.h"
 #include "panels.h"
-#include "tiled_texture.h"
-#include "viewport.h"
 #include "workbench.h"
 
 namespace pimgview {

@@ -8,7 +8,7 @@
 
 #include <pimg/detail/format.h>
 
-#include "file_list.h"
+#include "state/file_list.h"
 
 namespace pimgview {
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "arguments.h"
-#include "history.h"
 #include "keys.h"
-#include "settings.h"
+#include "state/history.h"
+#include "state/settings.h"
 #include "studio.h"
 
 namespace pimgview {

@@ -11,9 +11,9 @@
 
 #include <pimg/imagebufalgo.h>
 
-#include "command_line.h"
-#include "history.h"
-#include "viewport.h"
+#include "display/viewport.h"
+#include "state/command_line.h"
+#include "state/history.h"
 
 namespace {
 

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The dual pieces of a level as the tiles of a mosaic (paper, sections 4.2 and 7).
+#include <pimg/imagebufalgo.h>
+
+#include <algorithm>
+
+#include <pimg/detail/format.h>
+#include <pimg/mosaic.h>
+
+#include "frame/image_filter.h"
+#include "ops/painting/painting.h"
+
+namespace pimg {
+namespace ImageBufAlgo {
+
+namespace {
+
+/// Where there is alpha, gives each tile of the picture in `channels` its mean colour without it: a tile half outside
+/// of a cut-out is no darker than its neighbours.
+void straighten(const ProgressiveImage::Data& data, const Tiling& tiling, Index tiles, const ParallelFor& parallel,
+                const std::vector<float*>& channels)
+{
+    const std::vector<float> alpha = alpha_of(data);
+    if (alpha.empty())
+        return;
+    std::vector<float> cover = to_mesh_pixels(data.hierarchy, alpha.data());
+    std::vector<float*> all = channels;
+    all.push_back(cover.data());
+    lay_mosaic(tiling, tiles, { 0.0f, 0.0f, 0.0f, parallel }, std::vector<float>(all.size(), 0.0f), all);
+    for (float* channel : channels)
+        for (std::size_t i = 0; i < cover.size(); ++i)
+            channel[i] = cover[i] > 0.0f ? channel[i] / cover[i] : 0.0f;
+}
+
+}  // namespace
+
+bool on_hierarchy::mosaic(ImageBuf& dst, const ProgressiveImage& src, const MosaicOptions& options, ROI roi,
+                          int nthreads)
+{
+    return run_filter(dst, options, [&] {
+        if (!prepare(dst, src, roi, ResultType::as_source))
+            return false;
+        ProgressiveImage::Data& data = *src.data();
+        const ParallelFor parallel = pool_loop(nthreads);
+        std::vector<float> grout;
+        if (!parse_colour(options.colour, data.colour.count(), grout)) {
+            set_error(dst, format("colour: \"{}\": expected a colour, such as black or 0.2,0.2,0.2", options.colour));
+            return false;
+        }
+        Mesh mesh;
+        const Level level = data.hierarchy.level_of_vertices(options.tiles);
+        const Status status = refine(data.hierarchy, level, mesh);
+        if (!status) {
+            set_error(dst, status.error());
+            return false;
+        }
+        OwnedChannels picture = stored_channels(data);
+        std::vector<float*> channels;
+        for (std::vector<float>& channel : picture.channels)
+            channels.push_back(channel.data());
+        const Tiling tiling = tile(mesh, parallel);
+        straighten(data, tiling, mesh.size(), parallel, channels);
+        lay_mosaic(tiling, mesh.size(), { options.grout, options.bevel, options.relief, parallel }, grout, channels);
+        for (std::vector<float>& channel : picture.channels)
+            crop_to_picture(data.hierarchy, channel);
+        associate(data, picture.channels);
+        write_channels(dst, data, roi, parallel, picture.channels, Specials::replaced);
+        return true;
+    });
+}
+
+}  // namespace ImageBufAlgo
+}  // namespace pimg

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Painterly rendering (paper, section 5.2).
+#include <pimg/imagebufalgo.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <OpenImageIO/imagebufalgo.h>
+
+#include <pimg/detail/format.h>
+#include <pimg/paint.h>
+
+#include "frame/image_filter.h"
+#include "ops/painting/painting.h"
+
+namespace pimg {
+namespace ImageBufAlgo {
+
+namespace {
+
+/// What the options name, loaded.
+struct Studio {
+    Brush brush;
+    OwnedChannels canvas;         ///< mesh-sized
+    bool on_the_picture = false;  ///< the canvas is the source itself
+    std::vector<float> detail;    ///< mesh-sized, or empty
+};
+
+/// A picture of another size as channels over the mesh.
+bool fitted(const std::string& filename, const ProgressiveImage::Data& data, int channels, OwnedChannels& picture,
+            std::string& error)
+{
+    ImageBuf file, resized;
+    if (!read_picture(filename, file, error))
+        return false;
+    OIIO::ImageSpec spec(data.spec.width, data.spec.height, file.nchannels(), OIIO::TypeDesc::FLOAT);
+    resized.reset(spec);
+    file.set_origin(0, 0);
+    file.set_full(0, file.spec().width, 0, file.spec().height, 0, 1);
+    if (!OIIO::ImageBufAlgo::resize(resized, file, nullptr, resized.roi(), 1)) {
+        error = "\"" + filename + "\": " + resized.geterror();
+        return false;
+    }
+    picture.width = data.hierarchy.mesh_width();
+    picture.height = data.hierarchy.mesh_height();
+    for (int c = 0; c < channels; ++c) {
+        std::vector<float> samples(data.spec.image_pixels());
+        const int from = std::min(c, file.nchannels() - 1);
+        resized.get_pixels(OIIO::ROI(0, spec.width, 0, spec.height, 0, 1, from, from + 1), OIIO::TypeDesc::FLOAT,
+                           samples.data());
+        for (float& sample : samples)
+            sample = std::isfinite(sample) ? sample : 0.0f;
+        picture.channels.push_back(to_mesh_pixels(data.hierarchy, samples.data()));
+    }
+    return true;
+}
+
+bool load_brush(const std::string& name, Brush& brush, std::string& error)
+{
+    brush = Brush::named(name);
+    if (!brush.empty())
+        return true;
+    ImageBuf file;
+    if (!read_picture(name, file, error)) {
+        error = "brush: expected " + std::string(Brush::names()) + " or a picture; " + error;
+        return false;
+    }
+    const OIIO::ImageSpec& spec = file.spec();
+    std::vector<float> alpha(spec.image_pixels()), height(alpha.size());
+    const int channel = spec.alpha_channel;
+    const auto read = [&](int c, std::vector<float>& samples) {
+        OIIO::ROI roi = file.roi();
+        roi.chbegin = c;
+        roi.chend = c + 1;
+        file.get_pixels(roi, OIIO::TypeDesc::FLOAT, samples.data());
+    };
+    // Alpha is where the paint is and grey how thick it is; without alpha grey is both.
+    read(channel == 0 && spec.nchannels > 1 ? 1 : 0, height);
+    if (channel >= 0)
+        read(channel, alpha);
+    brush = Brush::from_picture(spec.width, spec.height, channel >= 0 ? alpha.data() : nullptr, height.data());
+    return true;
+}
+
+bool load_canvas(const PaintOptions& options, const ProgressiveImage::Data& data, Studio& studio, std::string& error)
+{
+    studio.on_the_picture = options.canvas.empty();
+    std::vector<float> colour;
+    if (studio.on_the_picture) {
+        studio.canvas = stored_channels(data);
+    } else if (parse_colour(options.canvas, data.colour.count(), colour)) {
+        studio.canvas = { data.hierarchy.mesh_width(), data.hierarchy.mesh_height(), {} };
+        for (int c = 0; c < data.colour.count(); ++c)
+            studio.canvas.channels.emplace_back(data.hierarchy.mesh_pixels(), colour[std::size_t(c)]);
+    } else if (!fitted(options.canvas, data, data.colour.count(), studio.canvas, error)) {
+        error = "canvas: expected a colour, such as white or 0.9,0.8,0.7, or a picture; " + error;
+        return false;
+    }
+    return true;
+}
+
+bool load(const PaintOptions& options, const ProgressiveImage::Data& data, Studio& studio, std::string& error)
+{
+    if (options.max < options.min) {
+        error = format("max: {} is below min, {}", options.max, options.min);
+        return false;
+    }
+    if (!check_strokes_name(options.strokes, error) || !load_brush(options.brush, studio.brush, error)
+        || !load_canvas(options, data, studio, error))
+        return false;
+    OwnedChannels detail;
+    if (!options.detail.empty()) {
+        if (!fitted(options.detail, data, 1, detail, error)) {
+            error = "detail: " + error;
+            return false;
+        }
+        studio.detail = std::move(detail.channels[0]);
+    }
+    return true;
+}
+
+StrokeOptions stroke_options(const PaintOptions& options, const Studio& studio, const ParallelFor& parallel)
+{
+    StrokeOptions strokes;
+    strokes.min = options.min;
+    strokes.max = options.max;
+    strokes.detail = studio.detail.empty() ? nullptr : studio.detail.data();
+    strokes.length = options.length;
+    strokes.tolerance = options.tolerance;
+    strokes.jitter_angle = options.jitter_angle;
+    strokes.jitter_size = options.jitter_size;
+    strokes.seed = std::uint32_t(options.seed);
+    strokes.parallel = parallel;
+    return strokes;
+}
+
+/// Colours for a file: encoded for a display.
+ShownColours shown(ShownColours colours, const ProgressiveImage::Data& data)
+{
+    colours.resize(std::min<std::size_t>(colours.size(), 3));
+    if (!data.colour.encoded())
+        for (std::vector<float>& channel : colours)
+            for (float& value : channel)
+                value = srgb_encoded(value);
+    return colours;
+}
+
+/// Paints on studio.canvas.
+bool paint_canvas(ProgressiveImage::Data& data, const PaintOptions& options, const ParallelFor& parallel,
+                  Studio& studio, std::string& error)
+{
+    OwnedChannels eye;
+    if (!eye_channels(data, parallel, eye, error))
+        return false;
+    const ChannelsView guides = eye.view();
+    const DirectionField field(guides, parallel);
+    const StrokeOptions planning = stroke_options(options, studio, parallel);
+    Strokes strokes;
+    const Status status = plan_strokes(data.hierarchy, guides, field, planning, strokes);
+    error = status.error();
+    if (!status)
+        return false;
+    const OwnedChannels picture = stored_channels(data);
+    const ShownColours colours = stroke_colours(strokes, picture.view(), guides, parallel);
+    if (!write_strokes(options.strokes, strokes, shown(colours, data), options.opacity, "", error))
+        return false;
+
+    std::vector<float> relief(options.impasto > 0.0f ? data.hierarchy.mesh_pixels() : 0, 0.0f);
+    Canvas canvas { studio.canvas.width, studio.canvas.height, {}, relief.empty() ? nullptr : relief.data() };
+    for (std::vector<float>& channel : studio.canvas.channels)
+        canvas.channels.push_back(channel.data());
+    StrokePaintOptions settings;
+    settings.opacity = options.opacity;
+    settings.jitter_color = options.jitter_colour;
+    settings.edges = &guides;
+    settings.crossing = planning.crossing;
+    const ChannelsView ground = picture.view();
+    settings.ground = studio.on_the_picture ? nullptr : &ground;
+    settings.parallel = parallel;
+    paint_strokes(strokes, colours, studio.brush, settings, canvas);
+    light_relief(canvas, options.impasto, parallel);
+    for (std::vector<float>& channel : studio.canvas.channels) {
+        crop_to_picture(data.hierarchy, channel);
+        if (data.spec.format == OIIO::TypeDesc::HALF)  // the grain of the paint must not make infinity of the largest
+            for (float& value : channel)
+                value = std::clamp(value, -65504.0f, 65504.0f);
+    }
+    return true;
+}
+
+}  // namespace
+
+bool on_hierarchy::paint(ImageBuf& dst, const ProgressiveImage& src, const PaintOptions& options, ROI roi, int nthreads)
+{
+    return run_filter(dst, options, [&] {
+        if (!prepare(dst, src, roi, ResultType::as_source))
+            return false;
+        ProgressiveImage::Data& data = *src.data();
+        const ParallelFor parallel = pool_loop(nthreads);
+        Studio studio;
+        std::string error;
+        if (!load(options, data, studio, error) || !paint_canvas(data, options, parallel, studio, error)) {
+            set_error(dst, error);
+            return false;
+        }
+        const bool untouched = options.opacity == 0.0f && studio.on_the_picture;
+        write_channels(dst, data, roi, parallel, studio.canvas.channels,
+                       untouched ? Specials::restored : Specials::replaced);
+        return true;
+    });
+}
+
+}  // namespace ImageBufAlgo
+}  // namespace pimg

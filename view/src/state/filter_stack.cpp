@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "state/filter_stack.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <OpenImageIO/strutil.h>
+
+#include <pimg/detail/format.h>
+
+namespace pimgview {
+
+namespace {
+
+using pimg::OptionInfo;
+using pimg::OptionTexts;
+
+auto find(const OptionTexts& texts, const OptionInfo& option)
+{
+    return std::find_if(texts.begin(), texts.end(), [&](const auto& text) { return option.is_called(text.first); });
+}
+
+bool binds(const StackItem& item)
+{
+    pimg::BoundFilter bound;
+    std::string error;
+    return item.filter->bind(item.texts, bound, error);
+}
+
+}  // namespace
+
+std::string value_of(const OptionTexts& texts, const OptionInfo& option)
+{
+    const auto found = find(texts, option);
+    return found == texts.end() ? option.default_value : found->second;
+}
+
+bool is_given(const OptionTexts& texts, const OptionInfo& option)
+{
+    return find(texts, option) != texts.end();
+}
+
+void set_value(OptionTexts& texts, const OptionInfo& option, const std::string& value)
+{
+    const auto found = find(texts, option);
+    if (value == option.default_value) {
+        if (found != texts.end())
+            texts.erase(found);
+    } else if (found != texts.end())
+        texts[std::size_t(found - texts.begin())].second = value;
+    else
+        texts.emplace_back(option.key, value);
+}
+
+void set_value(StackItem& item, const OptionInfo& option, const std::string& value)
+{
+    set_value(item.texts, option, value);
+    if (binds(item))
+        return;
+    for (const auto& [key, unused] : item.texts) {
+        if (option.is_called(key))
+            continue;
+        StackItem without = item;
+        for (const OptionInfo& other : item.filter->options())
+            if (other.is_called(key))
+                set_value(without.texts, other, other.default_value);
+        if (binds(without)) {
+            item = without;
+            return;
+        }
+    }
+}
+
+OptionTexts for_reduced(const StackItem& item, int factor)
+{
+    OptionTexts texts = item.texts;
+    if (factor == 1)
+        return texts;
+    for (const OptionInfo& option : item.filter->options()) {
+        const std::string value = value_of(item.texts, option);
+        if (option.unit != "pixels" || value.empty())
+            continue;
+        const double smaller = OIIO::Strutil::stod(value) / factor;
+        const double kept = std::max(option.min, smaller);
+        set_value(texts, option, pimg::format("{}", option.type == "int" ? std::round(kept) : kept));
+    }
+    return texts;
+}
+
+SliderRange slider_range(const OptionInfo& option)
+{
+    // Ranges that end at what a number can hold are no use to a slider: ten times the default then, at least 100.
+    constexpr double kWidest = 1000.0, kTimesDefault = 10.0, kLeastOpen = 100.0;
+    const double preset = option.default_value.empty() ? 0.0 : OIIO::Strutil::stod(option.default_value);
+    SliderRange range { option.min, option.max, false };
+    if (option.min == option.max)
+        range = { std::min(-1.0, -2.0 * std::fabs(preset)), std::max(1.0, 2.0 * std::fabs(preset)), false };
+    else if (option.max > kWidest) {
+        const double least = option.type == "int" && option.default_value.empty() ? 1e6 : kLeastOpen;
+        range.high = std::max({ least, kTimesDefault * preset, kTimesDefault * std::max(option.min, 0.0) });
+    }
+    range.logarithmic = range.high > kTimesDefault * kTimesDefault / 2 && range.low >= 0.0;
+    return range;
+}
+
+}  // namespace pimgview
