@@ -220,6 +220,12 @@ void TilePainter::blend(const std::vector<std::vector<float>>& colours, Index i,
                 out[k] = distance[k] < kFar ? mixed : out[k];
             }
         }
+        if (m_canvas.alpha)
+            for (int k = 0; k < columns; ++k) {
+                float& out = m_canvas.alpha[at + std::size_t(k)];
+                const float mixed = out + alpha[k] * (colours[m_canvas.channels.size()][i] - out);
+                out = distance[k] < kFar ? mixed : out;
+            }
         if (m_canvas.relief)
             for (int k = 0; k < columns; ++k) {
                 float& out = m_canvas.relief[at + std::size_t(k)];
@@ -252,6 +258,9 @@ void TilePainter::fill_holes()
             const std::size_t at = std::size_t(y) * std::size_t(m_canvas.width) + std::size_t(x);
             for (std::size_t c = 0; c < m_canvas.channels.size(); ++c)
                 m_canvas.channels[c][at] += alpha * (m_options.ground->channels[c][at] - m_canvas.channels[c][at]);
+            if (m_canvas.alpha)
+                m_canvas.alpha[at] +=
+                    alpha * (m_options.ground->channels[m_canvas.channels.size()][at] - m_canvas.alpha[at]);
         }
 }
 

@@ -109,7 +109,8 @@ class Alpha(LayersTest):
         alpha = (np.hypot(x - 40, y - 24) < 14).astype(np.float32)[..., None]
         pictures.write("cut.exr", np.concatenate([pictures.scene(64, 48) * alpha, alpha], 2), "half",
                        names=("R", "G", "B", "A"))
-        for operation in ("--ink", "--wireframe:faces=90", "--wireframe:faces=90:overlay=1", "--mosaic:tiles=60"):
+        for operation in ("--ink", "--wireframe:faces=90", "--wireframe:faces=90:overlay=1", "--mosaic:tiles=60", "--paint",
+                          "--paint:canvas=white:impasto=0.5:jitter_colour=0.5"):
             with self.subTest(operation=operation):
                 self.ok("cut.exr", operation, "-d", "float", "-o", "out.exr")
                 result = pictures.read("out.exr")
@@ -124,6 +125,31 @@ class Alpha(LayersTest):
         result = pictures.read("out.exr")
         straight = (result[..., 0] / np.maximum(result[..., 3], 1e-6))[result[..., 3] > 0.04]
         self.assertLess(straight.max() / straight.min(), 1.1)
+
+    def test_paint_is_associated_with_alpha(self):
+        y, x = np.mgrid[0:48, 0:64]
+        alpha = np.clip((44 - np.hypot(x - 32, 2 * y - 48)) / 16, 0, 1)[..., None]
+        for kind, name in (("float", "soft.exr"), ("uint8", "soft.png")):
+            picture = pictures.scene(64, 48)
+            pictures.write(name, np.concatenate([picture * alpha, alpha], 2), kind, names=("R", "G", "B", "A"))
+            for options in ("", ":canvas=0.9,0.1,0.1", ":opacity=0.6:impasto=0.5"):
+                with self.subTest(kind + options):
+                    self.ok(name, "--paint" + options, "-d", kind, "-o", "out" + name[-4:])
+                    result = pictures.read("out" + name[-4:])
+                    # Paint is as bright as the picture, a little lit; PNG rounds small alpha.
+                    most = 1.35 if kind == "float" else 1.0
+                    self.assertTrue(np.all(result[..., :3] <= most * result[..., 3:] + 0.02))
+                    soft = (result[..., 3] > 0.1) & (result[..., 3] < 0.6)
+                    straight = result[..., :3][soft] / result[..., 3:][soft]
+                    self.assertLess(np.abs(straight - picture[soft]).mean(), 0.12)
+
+    def test_paint_of_opaque_pixels_does_not_know_of_alpha(self):
+        picture = pictures.scene(64, 48)
+        pictures.write("rgb.exr", picture, "float", names=("R", "G", "B"))
+        pictures.write("rgba.exr", np.concatenate([picture, np.ones((48, 64, 1))], 2), "float",
+                       names=("R", "G", "B", "A"))
+        self.ok("rgb.exr", "--paint:impasto=0.5", "-o", "a.exr", "rgba.exr", "--paint:impasto=0.5", "-o", "b.exr")
+        np.testing.assert_array_equal(pictures.read("a.exr"), pictures.read("b.exr")[..., :3])
 
     def test_tiles_at_the_edge_are_as_bright_as_others(self):
         y, x = np.mgrid[0:48, 0:64]

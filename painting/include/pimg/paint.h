@@ -14,6 +14,9 @@ struct Canvas {
     int width = 0, height = 0;
     std::vector<float*> channels;
     float* relief = nullptr;  ///< receives the thickness of the paint in pixels, one float per pixel; null: not wanted
+    /// Alpha of what is on the canvas, if its colours are multiplied by alpha. It is painted on like a channel, but without
+    /// grain and random changes. Null: all is opaque.
+    float* alpha = nullptr;
 };
 
 /// How strokes are painted.
@@ -25,7 +28,7 @@ struct StrokePaintOptions {
     /// edge does, with the same anti-aliasing. Null: edges do not stop paint.
     const ChannelsView* edges = nullptr;
     /// Fills holes: along edges that stop the paint, a few pixels may get none, and these show this picture, which has the
-    /// size and the channels of the canvas. Gaps between the hairs of a brush stay. Null: holes stay, too.
+    /// size and the channels of the canvas, and then its alpha, if that has one. Gaps between the hairs of a brush stay. Null: holes stay, too.
     const ChannelsView* ground = nullptr;
     float crossing = 14.0f;  ///< smallest difference in `edges` that is an edge
     ParallelFor parallel;    ///< the result does not depend on it
@@ -33,7 +36,8 @@ struct StrokePaintOptions {
 
 using PaintSettings [[deprecated("renamed: StrokePaintOptions")]] = StrokePaintOptions;
 
-/// Paints the strokes in their order. colours[c][i] is the value of stroke i in channel c of the canvas.
+/// Paints the strokes in their order. colours[c][i] is the value of stroke i in channel c of the canvas; the entry after
+/// the channels is its alpha, if the canvas has one.
 void paint_strokes(const Strokes& strokes, const std::vector<std::vector<float>>& colours, const Brush& brush,
                    const StrokePaintOptions& options, Canvas& canvas);
 

@@ -24,6 +24,8 @@ struct Studio {
     OwnedChannels canvas;         ///< mesh-sized
     bool on_the_picture = false;  ///< the canvas is the source itself
     std::vector<float> detail;    ///< mesh-sized, or empty
+    std::vector<float> alpha;     ///< of the picture, mesh-sized; empty if it is opaque
+    std::vector<float> cover;     ///< alpha of the canvas; empty if the picture is opaque
 };
 
 /// A picture of another size as channels over the mesh.
@@ -108,6 +110,11 @@ bool load(const PaintOptions& options, const ProgressiveImage::Data& data, Studi
     if (!check_strokes_name(options.strokes, error) || !load_brush(options.brush, studio.brush, error)
         || !load_canvas(options, data, studio, error))
         return false;
+    const std::vector<float> alpha = alpha_of(data);
+    if (std::any_of(alpha.begin(), alpha.end(), [](float a) { return a < 1.0f; })) {
+        studio.alpha = to_mesh_pixels(data.hierarchy, alpha.data());
+        studio.cover = studio.on_the_picture ? studio.alpha : std::vector<float>(studio.alpha.size(), 1.0f);
+    }
     OwnedChannels detail;
     if (!options.detail.empty()) {
         if (!fitted(options.detail, data, 1, detail, error)) {
@@ -137,12 +144,33 @@ StrokeOptions stroke_options(const PaintOptions& options, const Studio& studio, 
 /// Colours for a file: encoded for a display.
 ShownColours shown(ShownColours colours, const ProgressiveImage::Data& data)
 {
-    colours.resize(std::min<std::size_t>(colours.size(), 3));
+    colours.resize(std::size_t(data.colour.count()));  // without alpha
     if (!data.colour.encoded())
         for (std::vector<float>& channel : colours)
             for (float& value : channel)
                 value = srgb_encoded(value);
     return colours;
+}
+
+/// Gives the paint the picture's alpha. Strokes reach beyond a soft edge, or bring transparent paint into what is opaque:
+/// the colour without alpha is right, and is multiplied by the alpha of the pixel. Where there is no paint to speak of, the
+/// picture stays.
+void apply_alpha(const ProgressiveImage::Data& data, const OwnedChannels& picture, Studio& studio)
+{
+    constexpr float kLeastCover = 1e-3f;
+    for (std::size_t c = 0; c < picture.channels.size(); ++c)
+        for (std::size_t i = 0; i < studio.alpha.size(); ++i) {
+            float& sample = studio.canvas.channels[c][i];
+            const float alpha = studio.alpha[i], cover = studio.cover[i];
+            if (alpha <= 0.0f)
+                sample = 0.0f;
+            else if (cover < kLeastCover)
+                sample = picture.channels[c][i];
+            else if (cover != alpha)
+                sample *= alpha / cover;
+            if (data.whole_numbers)  // the grain of the paint must not leave the range of associated colours
+                sample = std::min(sample, std::max(alpha, picture.channels[c][i]));
+        }
 }
 
 /// Paints on studio.canvas.
@@ -161,12 +189,17 @@ bool paint_canvas(ProgressiveImage::Data& data, const PaintOptions& options, con
     if (!status)
         return false;
     const OwnedChannels picture = stored_channels(data);
-    const ShownColours colours = stroke_colours(strokes, picture.view(), guides, parallel);
+    ChannelsView ground = picture.view();
+    if (!studio.alpha.empty())
+        ground.channels.push_back(studio.alpha.data());
+    const ShownColours colours = stroke_colours(strokes, ground, guides, parallel);
     if (!write_strokes(options.strokes, strokes, shown(colours, data), options.opacity, "", error))
         return false;
 
     std::vector<float> relief(options.impasto > 0.0f ? data.hierarchy.mesh_pixels() : 0, 0.0f);
-    Canvas canvas { studio.canvas.width, studio.canvas.height, {}, relief.empty() ? nullptr : relief.data() };
+    Canvas canvas { studio.canvas.width, studio.canvas.height, {} };
+    canvas.relief = relief.empty() ? nullptr : relief.data();
+    canvas.alpha = studio.cover.empty() ? nullptr : studio.cover.data();
     for (std::vector<float>& channel : studio.canvas.channels)
         canvas.channels.push_back(channel.data());
     StrokePaintOptions settings;
@@ -174,11 +207,12 @@ bool paint_canvas(ProgressiveImage::Data& data, const PaintOptions& options, con
     settings.jitter_color = options.jitter_colour;
     settings.edges = &guides;
     settings.crossing = planning.crossing;
-    const ChannelsView ground = picture.view();
     settings.ground = studio.on_the_picture ? nullptr : &ground;
     settings.parallel = parallel;
     paint_strokes(strokes, colours, studio.brush, settings, canvas);
     light_relief(canvas, options.impasto, parallel);
+    if (options.opacity > 0.0f || !studio.on_the_picture)
+        apply_alpha(data, picture, studio);
     for (std::vector<float>& channel : studio.canvas.channels) {
         crop_to_picture(data.hierarchy, channel);
         if (data.spec.format == OIIO::TypeDesc::HALF)  // the grain of the paint must not make infinity of the largest
