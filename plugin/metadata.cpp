@@ -64,7 +64,7 @@ bool is_sound(const std::string& name, TypeDesc type, const void* value)
         return within(1, 8);
     if (OIIO::Strutil::iequals(name, "oiio:BitsPerSample"))
         return within(1, 32);
-    if (OIIO::Strutil::iequals(name, "oiio:UnassociatedAlpha"))
+    if (OIIO::Strutil::iequals(name, kUnassociatedAlpha))
         return within(0, 1);
     return true;
 }
@@ -227,7 +227,7 @@ int channel_number(const Attribute& attribute, int channels)
 
 }  // namespace
 
-TypeDesc stored_type(TypeDesc type)
+TypeDesc stored_type(const TypeDesc& type)
 {
     switch (type.basetype) {
     case TypeDesc::UINT8:
@@ -259,7 +259,7 @@ TypeDesc type_desc(SampleType type)
 
 namespace {
 
-SampleType sample_type(TypeDesc type)
+SampleType sample_type(const TypeDesc& type)
 {
     switch (type.basetype) {
     case TypeDesc::UINT8:

@@ -28,8 +28,11 @@ struct WriteOptions {
     int tile = 256;
 };
 
+/// The attribute that says that colours are not multiplied by alpha, and the hint that asks for them so.
+constexpr const char* kUnassociatedAlpha = "oiio:UnassociatedAlpha";
+
 /// The type samples of an OpenImageIO type are stored as: the same where the format has it, else float.
-OIIO::TypeDesc stored_type(OIIO::TypeDesc type);
+OIIO::TypeDesc stored_type(const OIIO::TypeDesc& type);
 OIIO::TypeDesc type_desc(SampleType type);
 
 /// From the header of a picture to be written, whose types are stored types, and back. Metadata the writer or reader

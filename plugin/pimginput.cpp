@@ -75,9 +75,8 @@ bool PimgInput::open(const std::string& name, ImageSpec& spec, const ImageSpec& 
             return fail(pimg::format("\"{}\": {}", name, status.error()));
         std::string error;
         if (!m_request.parse(name, config, error))
-            return fail(pimg::format("\"{}\": {}", name, error));
-        if (!announce_levels(error))
-            return fail(pimg::format("\"{}\": {}", name, error));
+            refuse(error);
+        announce_levels(config);
         m_spec = m_levels[0];
         spec = m_spec;
         return true;
@@ -99,6 +98,7 @@ bool PimgInput::close()
     m_request = ReadRequest();
     m_spec = ImageSpec();
     m_miplevel = 0;
+    m_associates = false;
     return true;
 }
 
@@ -116,13 +116,32 @@ static ImageSpec mip_spec(const ImageSpec& top, int level)
     return spec;
 }
 
-bool PimgInput::announce_levels(std::string& error)
+/// A name with a query that cannot be meant. If it did not open, oiiotool would only say that there is no such file; so the
+/// picture in the file is announced, and whoever asks for its pixels is told what is wrong.
+void PimgInput::refuse(const std::string& error)
+{
+    m_failure = pimg::format("\"{}\": {}", m_name, one_line(error));
+    m_request = ReadRequest();
+}
+
+/// As everywhere in OpenImageIO, colours are multiplied by alpha unless the configuration asks for them as stored.
+void PimgInput::announce_levels(const ImageSpec& config)
 {
     m_stored = to_spec(m_decoder.desc());
     ImageSpec top = m_stored;
+    m_associates = m_stored.get_int_attribute(kUnassociatedAlpha) != 0 && m_stored.alpha_channel >= 0
+        && config.get_int_attribute(kUnassociatedAlpha) == 0;
+    if (m_associates)
+        top.erase_attribute(kUnassociatedAlpha);
     top.attribute("compression", m_decoder.profile() == Profile::full ? "full" : "compact");
-    if (!m_request.change_spec(top, error))
-        return false;
+    std::string error;
+    ImageSpec changed = top;
+    if (m_request.change_spec(changed, error))
+        top = changed;
+    else
+        refuse(error);
+    if (!m_failure.empty())
+        top.attribute("pimg:error", m_failure);
     if (!m_request.filtered()) {
         const int longer = std::max(top.width, top.height), side = std::min(longer, kThumbnailSide);
         top.attribute("thumbnail_width", std::max(1, int(std::int64_t(top.width) * side / longer)));
@@ -138,7 +157,6 @@ bool PimgInput::announce_levels(std::string& error)
     while (m_request.mip && (m_levels.back().width > 1 || m_levels.back().height > 1))
         m_levels.push_back(mip_spec(top, int(m_levels.size())));
     m_made.resize(m_levels.size());
-    return true;
 }
 
 // ---- levels -----------------------------------------------------------------------------------------------------
@@ -228,7 +246,7 @@ bool PimgInput::read_native_tile(int subimage, int miplevel, int x, int y, int, 
 
 bool PimgInput::read(int miplevel, const Request& request)
 {
-    if (miplevel == 0 && !m_request.filtered())
+    if (miplevel == 0 && !m_request.filtered() && !m_associates && m_failure.empty())
         return decode(request);
     const std::shared_ptr<const ImageBuf> level = made(miplevel);
     if (!level)

@@ -76,7 +76,8 @@ private:
     }
     bool fail(const std::string& message);
     bool has_level(int subimage, int miplevel);
-    bool announce_levels(std::string& error);
+    void refuse(const std::string& error);
+    void announce_levels(const OIIO::ImageSpec& config);
 
     bool read(int miplevel, const Request& request);
     bool is_whole();
@@ -86,6 +87,7 @@ private:
     std::shared_ptr<const Tile> tile(std::uint32_t column, std::uint32_t row, Status& status);
 
     std::shared_ptr<const OIIO::ImageBuf> picture();
+    std::shared_ptr<OIIO::ImageBuf> stored_picture();
     std::shared_ptr<const OIIO::ImageBuf> made(int miplevel);
     std::shared_ptr<const OIIO::ImageBuf> make(int miplevel);
 
@@ -94,13 +96,14 @@ private:
     Decoder m_decoder;
     std::vector<OIIO::ImageSpec> m_levels;  ///< level 0 and, if asked for, its MIP levels
     OIIO::ImageSpec m_stored;               ///< the picture in the file
+    bool m_associates = false;              ///< colours are multiplied by alpha, which the file has not done
     int m_miplevel = 0;
 
     std::mutex m_tiles_mutex, m_made_mutex, m_whole_mutex;
     std::list<std::shared_ptr<const Tile>> m_tiles;             ///< the last ones that were not read whole
     std::vector<std::shared_ptr<const OIIO::ImageBuf>> m_made;  ///< levels that are not in the file
     enum class Whole { unknown, yes, no } m_whole = Whole::unknown;
-    std::string m_failure;  ///< of making a level; it would fail again
+    std::string m_failure;  ///< what is wrong with the query, or why no level could be made: it would fail again
 };
 
 }  // namespace io

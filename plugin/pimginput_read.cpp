@@ -139,6 +139,16 @@ std::shared_ptr<const Tile> PimgInput::tile(std::uint32_t column, std::uint32_t 
 /// The picture in the file, moved to the origin and without a display window: levels are halved pixel by pixel.
 std::shared_ptr<const ImageBuf> PimgInput::picture()
 {
+    std::shared_ptr<ImageBuf> picture = stored_picture();
+    if (picture && m_associates) {
+        OIIO::ImageBufAlgo::premult(*picture, *picture, {}, threads());
+        picture->specmod().erase_attribute(kUnassociatedAlpha);
+    }
+    return picture;
+}
+
+std::shared_ptr<ImageBuf> PimgInput::stored_picture()
+{
     ImageSpec spec = m_stored;
     spec.channelformats.clear();
     spec.x = spec.y = spec.full_x = spec.full_y = 0;
@@ -222,7 +232,7 @@ std::shared_ptr<const ImageBuf> PimgInput::make(int miplevel)
     if (!m_request.filtered())
         return source;
     ProgressiveImage progressive;
-    const bool stored = m_decoder.has_hierarchy() && !m_request.rebuild;
+    const bool stored = m_decoder.has_hierarchy() && !m_request.rebuild && !m_associates;
     if (stored ? !progressive.adopt(*source, stored_hierarchy(m_decoder, *source), m_request.build, threads())
                : !progressive.build(*source, m_request.build, threads()))
         m_failure = progressive.error();
@@ -238,6 +248,8 @@ bool PimgInput::get_thumbnail(ImageBuf& thumbnail, int subimage)
     return guarded([&] {
         if (subimage != 0 || m_levels.empty() || m_request.filtered())
             return false;
+        if (!m_failure.empty())
+            return fail(m_failure);
         const ImageSpec& top = m_levels[0];
         ImageSpec spec(top.get_int_attribute("thumbnail_width"), top.get_int_attribute("thumbnail_height"),
                        top.get_int_attribute("thumbnail_nchannels"), m_stored.format);
@@ -262,7 +274,7 @@ bool PimgInput::get_thumbnail(ImageBuf& thumbnail, int subimage)
         for (int c = 0; c < spec.nchannels; ++c)
             thumbnail.set_pixels(ROI(0, spec.width, 0, spec.height, 0, 1, c, c + 1), m_stored.channelformat(c),
                                  packed.data() + m_stored.pixel_bytes(0, c, true), pixel, pixel * spec.width);
-        return true;
+        return !m_associates || OIIO::ImageBufAlgo::premult(thumbnail, thumbnail);
     });
 }
 

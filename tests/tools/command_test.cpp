@@ -115,7 +115,7 @@ TEST_F(CommandLine, NamesUnknownOperations)
     expect_operation_error("--hdr-compres:s0=1", { "\"--hdr-compres\"", "did you mean --hdr-compress?" });
     expect_operation_error("--paint-it-black", { "\"--paint-it-black\"", "--help" });
     expect_operation_error("-x", { "\"-x\"", "--help" });
-    expect_operation_error("-", { "\"-\"", "--help" });
+    expect_operation_error("-:s0=1", { "\"-\"", "--help" });
 }
 
 TEST_F(CommandLine, NamesUnknownAndUnfinishedKeys)

@@ -79,6 +79,7 @@ bool convert_colours(Session& session, const OIIO::ColorProcessorHandle& process
             return false;
         }
         std::vector<int> colours;
+        colours.reserve(4);
         for (int i = 0; i < colour.count(); ++i)
             colours.push_back(colour.channel(i));
         if (colour.alpha() >= 0)
@@ -97,9 +98,10 @@ bool convert_colours(Session& session, const OIIO::ColorProcessorHandle& process
         }
         return true;
     });
-    if (done)
-        session.top().linear_light = false;  // converted as the user wants it
-    return done;
+    return done && session.for_parts([](Picture& picture) {
+        picture.linear_light = false;  // converted as the user wants it
+        return true;
+    });
 }
 
 /// Finds the space of the top picture's colours, which become scene-linear if no conversion would know them.
@@ -181,22 +183,27 @@ bool incolorspace(Session& session, const Words& words)
         declare_space(dst.specmod(), words[0]);
         return true;
     });
-    Picture& top = session.top();
-    ImageSpec stored = top.pixels->spec();
-    stored.format = top.stored.all;
-    top.linear_light = holds_linear_light(stored);
-    return done;
+    return done && session.for_parts([](Picture& picture) {
+        ImageSpec stored = picture.pixels->spec();
+        stored.format = picture.stored.all;
+        picture.linear_light = holds_linear_light(stored);
+        return true;
+    });
 }
 
 /// Division by alpha and back, in floating point.
 template<bool (*Operation)(ImageBuf&, const ImageBuf&, OIIO::ROI, int)>
 bool alpha_operation(Session& session, const Words&)
 {
-    return session.change_pixels([](ImageBuf& dst, const ImageBuf& src) {
+    const auto run = [](ImageBuf& dst, const ImageBuf& src) {
         ImageSpec spec = src.spec();
         spec.set_format(OIIO::TypeFloat);
         dst.reset(spec);
         return Operation(dst, src, {}, 0);
+    };
+    return session.change_pixels(run) && session.for_parts([](Picture& picture) {
+        picture.is_straight = false;  // written as the user wants it
+        return true;
     });
 }
 
@@ -218,6 +225,7 @@ bool channels(Session& session, const Words& words)
         for (const int c : order)
             stored.per_channel.push_back(before[std::size_t(c)]);
     }
+    session.top().others.clear();  // no channel of another part was named
     const bool done = session.change_pixels([&](ImageBuf& dst, const ImageBuf& src) {
         return OIIO::ImageBufAlgo::channels(dst, src, int(order.size()), order);
     });

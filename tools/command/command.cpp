@@ -12,6 +12,8 @@
 
 #include <pimg/detail/format.h>
 
+#include "session/streams.h"
+
 namespace pimgtool {
 
 namespace {
@@ -111,7 +113,7 @@ bool parse_input(const std::string& filename, Program& program, std::string& err
 {
     // A reader may take options after the name: `a.pimg?level=10`.
     const std::string file = OIIO::Filesystem::exists(filename) ? filename : filename.substr(0, filename.find('?'));
-    const bool will_exist = std::count(program.written.begin(), program.written.end(), file) > 0;
+    const bool will_exist = is_stream(filename) || std::count(program.written.begin(), program.written.end(), file) > 0;
     if (!will_exist && !OIIO::Filesystem::exists(file)) {
         error = format("cannot read \"{}\": no such file", filename);
         return false;
@@ -121,6 +123,7 @@ bool parse_input(const std::string& filename, Program& program, std::string& err
         return false;
     }
     program.inputs.push_back(filename);
+    program.dangling_input.clear();
     program.steps.push_back({ "", [filename](Session& session) {
                                  return session.read(filename);
                              } });
@@ -172,6 +175,11 @@ bool turns_upright(const Program& program)
         || !std::all_of(program.written.begin(), program.written.end(), says_orientation);
 }
 
+bool keeps_parts(const Program& program)
+{
+    return std::any_of(program.written.begin(), program.written.end(), holds_parts);
+}
+
 bool run_steps(const Program& program, Session& session)
 {
     for (const Step& step : program.steps) {
@@ -188,11 +196,17 @@ bool run_steps(const Program& program, Session& session)
 bool parse(const std::vector<std::string>& arguments, Program& program, std::string& error)
 {
     for (std::size_t at = 0; at < arguments.size(); ++at) {
-        const bool is_command = !arguments[at].empty() && arguments[at][0] == '-';
+        const bool is_command = !arguments[at].empty() && arguments[at][0] == '-' && !is_stream(arguments[at]);
         if (is_command ? !parse_command(arguments, at, program, error) : !parse_input(arguments[at], program, error))
             return false;
     }
-    if (!program.dangling.empty())
+    const auto streams = std::count_if(program.written.begin(), program.written.end(), is_stream);
+    if (streams > 0 && (streams > 1 || program.informs || !program.stats.empty()))
+        error = format("\"{}\": nothing else can go to standard output: expected one picture, and no --info or --stats",
+                       *std::find_if(program.written.begin(), program.written.end(), is_stream));
+    else if (!program.dangling_input.empty())
+        error = format("{} has no effect here: expected it before the file it is meant for", program.dangling_input);
+    else if (!program.dangling.empty())
         error = format("{} has no effect here: expected it before the -o it is meant for", program.dangling);
     else if (program.inputs.empty() && !program.informs)
         error = "nothing to do: expected an input file, operations and -o FILE; --help lists them";

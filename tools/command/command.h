@@ -44,6 +44,7 @@ struct Program {
     std::vector<std::string> inputs, written;  ///< names of files, in order
     int pictures = 0;                          ///< on the stack after the steps so far
     std::string dangling;                      ///< an output setting that no -o has followed yet
+    std::string dangling_input;                ///< an input setting that no file has followed yet
     int threads = 0;                           ///< 0: one per core
     bool informs = false;                      ///< something is printed that needs no pictures
     std::string stats;                         ///< how to print figures: text, json; empty: not
@@ -94,6 +95,9 @@ bool take_settings(const std::vector<std::string>& arguments, Program& settings,
 /// Whether pictures are to be turned upright while they are read: unless only formats are written that say which way
 /// is up, JPEG and TIFF.
 bool turns_upright(const Program& program);
+
+/// Whether a file is written that holds several parts, so that all parts of the inputs are read.
+bool keeps_parts(const Program& program);
 
 /// Runs the steps, or for measuring those up to --hdr-compress but for writing.
 bool run_steps(const Program& program, Session& session);

@@ -149,8 +149,8 @@ CommandGroup general_group()
 
 const std::vector<CommandGroup>& command_table()
 {
-    static const std::vector<CommandGroup> table = { filters_group(), colour_group(),   stack_group(),
-                                                     output_group(),  sequence_group(), general_group() };
+    static const std::vector<CommandGroup> table = { input_group(),  filters_group(),  colour_group(), stack_group(),
+                                                     output_group(), sequence_group(), general_group() };
     return table;
 }
 

@@ -14,6 +14,29 @@
 
 namespace pimgtool {
 
+/// Keys of --iconfig.
+struct HintOptions {
+    std::string type;
+};
+
+}  // namespace pimgtool
+
+namespace pimg {
+
+template<>
+const std::vector<Option<pimgtool::HintOptions>>& option_table<pimgtool::HintOptions>()
+{
+    static const std::vector<Option<pimgtool::HintOptions>> table = {
+        { &pimgtool::HintOptions::type,
+          { "type", 0, 0, "", "int|float|string", "type of the value; not given: as the value looks" } },
+    };
+    return table;
+}
+
+}  // namespace pimg
+
+namespace pimgtool {
+
 namespace {
 
 using pimg::format;
@@ -93,6 +116,36 @@ bool pixel_type(const Call& call, Program& program, std::string& error)
                                      session.output.type = type;
                                  else
                                      session.output.channel_types[channel] = type;
+                                 return true;
+                             } });
+    return true;
+}
+
+bool part(const Call& call, Program& program, std::string& error)
+{
+    if (call.words[0].empty()) {
+        error = "\"\": expected a number from 0, a name, or all";
+        return false;
+    }
+    program.dangling_input = call.command->name;
+    program.steps.push_back({ call.command->name, [part = call.words[0]](Session& session) {
+                                 session.input.part = part;
+                                 return true;
+                             } });
+    return true;
+}
+
+bool iconfig(const Call& call, Program& program, std::string& error)
+{
+    HintOptions options;
+    OIIO::ImageSpec checked;
+    if (!pimg::set_options(options, call.keys, error)
+        || !add_reader_hint(checked, call.words[0], call.words[1], options.type, error))
+        return false;
+    program.dangling_input = call.command->name;
+    program.steps.push_back({ call.command->name, [checked](Session& session) {
+                                 for (const OIIO::ParamValue& hint : checked.extra_attribs)
+                                     session.input.config.extra_attribs.add_or_replace(hint);
                                  return true;
                              } });
     return true;
@@ -180,6 +233,21 @@ CommandGroup sequence_group()
             general_setting("--shot-stats", "FILE",
                             "--hdr-compress exposes the frames alike, as FILE says; measured first if there is no FILE",
                             shot_stats, pimg::describe_options<pimg::ShotOptions>),
+        }
+    };
+}
+
+CommandGroup input_group()
+{
+    return {
+        "Input",
+        {
+            setting("--part", "PART",
+                    "which part of the files after it is the picture: a number from 0, a name, or all, to keep them",
+                    part),
+            setting("--iconfig", "NAME VALUE",
+                    "a hint for readers of the files after it: oiio:UnassociatedAlpha 1 keeps colours under alpha 0",
+                    iconfig, pimg::describe_options<HintOptions>),
         }
     };
 }

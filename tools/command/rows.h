@@ -14,6 +14,7 @@ namespace pimgtool {
 using Words = std::vector<std::string>;
 
 CommandGroup colour_group();
+CommandGroup input_group();
 CommandGroup output_group();
 CommandGroup sequence_group();
 

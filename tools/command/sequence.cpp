@@ -191,7 +191,8 @@ bool for_each_frame(const std::vector<Program>& programs, bool parallel, Stats& 
             const Program& program = programs[i];
             Session session;
             session.verbose = program.verbose;
-            session.upright = turns_upright(program);
+            session.input.upright = turns_upright(program);
+            session.input.keeps_parts = keeps_parts(program);
             for (const std::string& input : program.inputs)
                 session.announce(input);
             const bool done = run_caught(run, program, session);

@@ -2,7 +2,6 @@
 #include "session/output.h"
 
 #include <algorithm>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <memory>
@@ -11,17 +10,15 @@
 #include <unistd.h>
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 
-#include <pimg/colour.h>
 #include <pimg/detail/format.h>
 #include <pimg/detail/safe_file.h>
-#include <pimg/labels.h>
 
-#include "session/colour.h"
+#include "session/part.h"
 #include "session/pimg_file.h"
+#include "session/streams.h"
 
 namespace pimgtool {
 
@@ -30,7 +27,6 @@ namespace {
 using OIIO::ImageBuf;
 using OIIO::ImageOutput;
 using OIIO::ImageSpec;
-using OIIO::ROI;
 using OIIO::TypeDesc;
 namespace Filesystem = OIIO::Filesystem;
 using pimg::format;
@@ -92,72 +88,48 @@ private:
     char* m_slot = nullptr;
 };
 
-/// What `out` stores when asked for `type`: found by writing a small picture, since OpenImageIO offers
-/// no question for it and the answer decides what the real one holds.
-bool stored_type(ImageOutput& out, const std::string& filename, int channels, TypeDesc& type, std::string& error)
-{
-    const ImageSpec spec(16, 16, channels, type);
-    if (!out.open(filename, spec)) {
-        error = out.geterror();
-        return false;
-    }
-    type = out.spec().format;
-    const std::vector<float> black(std::size_t(spec.image_pixels()) * std::size_t(channels), 0.0f);
-    out.write_image(OIIO::TypeFloat, black.data());
-    out.close();
-    out.geterror();  // only the type matters here
-    std::remove(filename.c_str());
-    return true;
-}
+using Parts = std::vector<std::unique_ptr<Part>>;
+using Progress = std::function<void(float)>;
 
-/// The part of a picture that a format without display window or negative coordinates can hold, as oiiotool does.
-ROI writable_window(const ImageBuf& pixels, const ImageOutput& out)
+/// Opens the file for a part; the header of the first has a proxy, if there is one.
+bool open_part(ImageOutput& out, const std::string& filename, const Parts& parts, std::size_t i)
 {
-    ROI window = pixels.roi();
-    if (!out.supports("displaywindow"))
-        window = pixels.roi_full();
-    window.chbegin = 0;
-    window.chend = pixels.nchannels();
-    if (!out.supports("negativeorigin")) {
-        window.xbegin = std::max(window.xbegin, 0);
-        window.ybegin = std::max(window.ybegin, 0);
-    }
-    return window;
-}
-
-/// The header of the file: the metadata of the pixels, stored as the types wanted.
-ImageSpec file_spec(const ImageBuf& pixels, const PixelTypes& types, const ImageOutput& out)
-{
-    ImageSpec spec = pixels.spec();
-    if (spec.get_int_attribute("oiio:BitsPerSample") != int(types.all.size()) * 8)
-        spec.erase_attribute("oiio:BitsPerSample");
-    spec.erase_attribute("textureformat");  // one level of no MIP-map
-    spec.tile_width = spec.tile_height = spec.tile_depth = 0;
-    // Files two to three per cent larger than by OpenImageIO's 6, in a third of the time, which was a sixth of all of
-    // it.
-    if (std::string(out.format_name()) == "png" && spec.find_attribute("png:compressionLevel") == nullptr)
-        spec.attribute("png:compressionLevel", 4);
-    spec.set_format(types.all);
-    if (int(types.per_channel.size()) == spec.nchannels && out.supports("channelformats"))
-        spec.channelformats = types.per_channel;
-    return spec;
+    if (i > 0)
+        return out.open(filename, parts[i]->spec, ImageOutput::AppendSubimage);
+    if (parts.size() == 1)
+        return out.open(filename, parts[0]->spec);
+    std::vector<ImageSpec> specs;
+    for (const std::unique_ptr<Part>& part : parts)
+        specs.push_back(part->spec);
+    return out.open(filename, int(specs.size()), specs.data());
 }
 
 /// Hands the pixels to a writer and everything it says to `error`.
-bool write_through(ImageOutput& out, const ImageBuf& pixels, const std::string& filename, const ImageSpec& spec,
-                   const std::function<void(float)>& progress, std::string& error)
+bool write_through(ImageOutput& out, const Parts& parts, const std::string& filename, const Progress& progress,
+                   std::string& error)
 {
+    struct Share {
+        const Progress& progress;
+        float before, each;
+    };
     const auto show = [](void* data, float done) {
-        (*static_cast<const std::function<void(float)>*>(data))(done);
+        const Share& share = *static_cast<const Share*>(data);
+        share.progress(share.before + share.each * done);
         return false;
     };
-    if (!out.open(filename, spec)) {
-        error = out.geterror();
-        return false;
+    bool written = true;
+    for (std::size_t i = 0; i < parts.size() && written; ++i) {
+        const ImageBuf& pixels = *parts[i]->source;
+        Share share { progress, float(i) / float(parts.size()), 1.0f / float(parts.size()) };
+        if (!open_part(out, filename, parts, i)) {
+            error = out.geterror();
+            return false;
+        }
+        out.geterror();  // of metadata left out, which is no failure
+        written = pixels.write(&out, show, &share);
+        if (!written)
+            error = pixels.has_error() ? pixels.geterror() : out.geterror();
     }
-    const bool written = pixels.write(&out, show, const_cast<std::function<void(float)>*>(&progress));
-    if (!written)
-        error = pixels.has_error() ? pixels.geterror() : out.geterror();
     const bool closed = out.close();
     if (written && !closed)
         error = out.geterror();
@@ -167,17 +139,22 @@ bool write_through(ImageOutput& out, const ImageBuf& pixels, const std::string& 
 }
 
 /// Whether a file can be read to its last pixel.
-bool is_readable(const std::string& filename, const ImageSpec& spec)
+bool is_readable(const std::string& filename, const Parts& parts)
 {
     const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(filename);
     if (!in) {
         OIIO::geterror();
         return true;  // formats that are only written
     }
-    std::vector<float> row(std::size_t(in->spec().width) * std::size_t(in->spec().nchannels));
-    const int last = in->spec().y + in->spec().height - 1;
-    const bool fine = in->spec().width == spec.width && in->spec().height == spec.height
-        && (in->spec().tile_width > 0 || in->read_scanline(last, 0, OIIO::TypeFloat, row.data()));
+    const int last_part = int(parts.size()) - 1;
+    const ImageSpec& written = parts.back()->spec;
+    bool fine = in->seek_subimage(last_part, 0);
+    const ImageSpec spec = in->spec();
+    std::vector<float> row(std::size_t(spec.width) * std::size_t(spec.nchannels));
+    const int last = spec.y + spec.height - 1;
+    fine = fine && spec.width == written.width && spec.height == written.height
+        && (spec.deep || spec.tile_width > 0
+            || in->read_scanlines(last_part, 0, last, last + 1, 0, 0, spec.nchannels, OIIO::TypeFloat, row.data()));
     in->geterror();
     return fine;
 }
@@ -192,118 +169,86 @@ bool takes_proxy(const ImageOutput& out)
 /// Writes a file that replaces `target` when all of it is on disk. Not every writer says that the disk was full: those
 /// that can write through a file of ours, others are given the benefit of a doubt only if there was room for more and
 /// the end of the file can be read.
-bool write_safely(ImageOutput& out, const ImageBuf& pixels, const std::string& target, const std::string& temporary,
-                  ImageSpec spec, const std::function<void(float)>& progress, std::string& error)
+bool write_safely(ImageOutput& out, const Parts& parts, const std::string& target, const std::string& temporary,
+                  const Progress& progress, std::string& error)
 {
     pimg::SafeFile file;
     if (!file.open(target, temporary)) {
-        error = format("cannot write \"{}\": {}", target, file.error());
+        error = file.error();
         return false;
     }
     bool written = false;
     if (takes_proxy(out)) {
         pimg::SafeFileProxy proxy(file);
         Filesystem::IOProxy* pointer = &proxy;
-        spec.attribute("oiio:ioproxy", TypeDesc::PTR, &pointer);
-        written = write_through(out, pixels, file.name(), spec, progress, error);
+        parts[0]->spec.attribute("oiio:ioproxy", TypeDesc::PTR, &pointer);
+        written = write_through(out, parts, file.name(), progress, error);
         proxy.flush();
     } else
-        written = write_through(out, pixels, file.name(), spec, progress, error) && file.has_room();
-    if (written && file.error().empty() && !takes_proxy(out) && !file.is_empty() && !is_readable(file.name(), spec)) {
-        error = format("cannot write \"{}\": what was written cannot be read", target);
+        written = write_through(out, parts, file.name(), progress, error) && file.has_room();
+    if (written && file.error().empty() && !takes_proxy(out) && !file.is_empty() && !is_readable(file.name(), parts)) {
+        error = "what was written cannot be read";
         return false;
     }
     if (written && ((file.error().empty() && file.is_empty()) || file.keep()))
         return true;
     if (!file.error().empty())
-        error = format("cannot write \"{}\": {}", target, file.error());
+        error = file.error();
     return false;
 }
 
-/// The first of the types for labels that the format stores as such and that holds them; else the one that holds most.
-/// OpenEXR has integers, but most readers turn pixels into floats that end at one; so there it is float.
-bool find_label_type(ImageOutput& out, const std::string& scratch, pimg::Index count, TypeDesc& type,
-                     std::string& error)
+bool same_display_window(const ImageBuf& a, const ImageBuf& b)
 {
-    double most = 0.0;
-    for (const TypeDesc wanted : { TypeDesc::UINT32, TypeDesc::UINT16, TypeDesc::FLOAT, TypeDesc::UINT8 }) {
-        if (std::string(out.format_name()) == "openexr" && wanted != TypeDesc::FLOAT)
-            continue;
-        TypeDesc stored = wanted;
-        if (!stored_type(out, scratch, 1, stored, error))
-            return false;
-        if (stored == wanted && pimg::largest_label(stored) > most) {
-            most = pimg::largest_label(stored);
-            type = stored;
-            if (most >= double(count) - 1.0)
-                return true;
-        }
-    }
-    return most > 0.0;
+    const OIIO::ROI x = a.roi_full(), y = b.roi_full();
+    return x.xbegin == y.xbegin && x.xend == y.xend && x.ybegin == y.ybegin && x.yend == y.yend;
 }
 
-/// Labels as pixels of another type, not scaled. `type` may be UNKNOWN: then it becomes what the format holds them in.
-bool convert_labels(const ImageBuf& labels, ImageOutput& out, const std::string& scratch, TypeDesc& type,
-                    ImageBuf& result, std::string& error)
+/// Which parts are written. `warning` tells which are left out.
+std::vector<std::size_t> choose_parts(const std::vector<OutputPicture>& parts, std::size_t picture,
+                                      const std::string& filename, std::string& warning)
 {
-    const auto count = pimg::Index(labels.spec().get_int_attribute(pimg::kLabelCount));
-    if (type == TypeDesc::UNKNOWN && !find_label_type(out, scratch, count, type, error))
-        return false;
-    ImageSpec spec = labels.spec();
-    spec.set_format(type);
-    result.reset(spec);
-    if (pimg::write_labels(result, result.roi(), static_cast<const pimg::Index*>(labels.localpixels()),
-                           std::size_t(spec.width), count))
-        return true;
-    error = result.geterror();
-    return false;
-}
-
-/// For a format without names of channels: the picture with its alpha instead of `source`. `warning` tells what is left
-/// out.
-bool keep_picture(const ImageBuf*& source, ImageBuf& kept, const ImageOutput& out, const std::string& layer,
-                  const OutputReport& report)
-{
-    pimg::Colour colour;
-    if (!pimg::Colour::resolve(source->spec(), "", layer, colour, report.error))
-        return false;
-    std::vector<int> order;
-    for (int i = 0; i < (colour.count() == 2 ? 1 : colour.count()); ++i)
-        order.push_back(colour.channel(i));
-    if (colour.alpha() >= 0 && out.supports("alpha"))
-        order.push_back(colour.alpha());
-    std::vector<std::string> names, left_out;
-    for (std::size_t i = 0; i < order.size(); ++i)
-        names.emplace_back(order[i] == colour.alpha() ? "A" : colour.count() < 3 ? "Y" : std::string(1, "RGB"[i]));
-    bool in_order = int(order.size()) == source->nchannels();
-    for (int c = 0; c < source->nchannels(); ++c) {
-        in_order = in_order && order[std::size_t(c)] == c;
-        if (std::count(order.begin(), order.end(), c) == 0)
-            left_out.push_back(source->spec().channel_name(c));
-    }
-    if (in_order && source->spec().z_channel < 0)
-        return true;
-    kept = OIIO::ImageBufAlgo::channels(*source, int(order.size()), order, {}, names);
-    kept.specmod().alpha_channel = names.back() == "A" ? int(names.size()) - 1 : -1;
-    kept.specmod().z_channel = -1;
-    source = &kept;
+    std::vector<std::size_t> chosen;
+    std::vector<std::string> left_out;
+    const bool has_room = holds_parts(filename);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        if (i == picture || (has_room && same_display_window(parts[i].pixels, parts[picture].pixels)))
+            chosen.push_back(i);
+        else
+            left_out.push_back(parts[i].part);
     if (!left_out.empty())
-        report.warning = format("written without {}, which {} does not hold", OIIO::Strutil::join(left_out, ", "),
-                                out.format_name());
-    return true;
+        add_warning(warning,
+                    format("written without part{} {}, {}", left_out.size() > 1 ? "s" : "",
+                           OIIO::Strutil::join(left_out, ", "),
+                           has_room ? "which have another display window" : "as the format holds one"));
+    return chosen;
 }
 
-/// Labels are numbers: a codec that changes them a little makes others of them.
-void avoid_lossy_codec(const OutputPicture& picture, ImageSpec& spec, std::string& warning)
+/// Writes to a file, whose name may differ from the one that was asked for.
+bool write_file(const std::vector<OutputPicture>& pictures, std::size_t picture, const std::string& filename,
+                const Progress& progress, const OutputReport& report)
 {
-    if (!picture.labels)
-        return;
-    const std::string compression = spec.get_string_attribute("compression");
-    for (const char* lossy : { "pxr24", "b44", "dwa" })
-        if (OIIO::Strutil::istarts_with(compression, lossy)) {
-            warning = format("compression {} would change labels: zip instead", compression);
-            spec.attribute("compression", "zip");
-        }
+    const std::unique_ptr<ImageOutput> out = create_output(filename, pictures[picture].hierarchy);
+    if (!out) {
+        report.error = OIIO::geterror();
+        return false;
+    }
+    const TemporaryName file(filename);
+    Parts parts;
+    for (const std::size_t i : choose_parts(pictures, picture, filename, report.warning)) {
+        parts.push_back(std::make_unique<Part>());
+        if (!make_part(pictures[i], filename, *out, file.name(), *parts.back(), report))
+            return false;
+    }
+    for (std::size_t i = 1; i < parts.size(); ++i)
+        share_attributes(parts[0]->spec, parts[i]->spec);
+    if (!write_safely(*out, parts, filename, file.name(), progress, report.error))
+        return false;
+    const Part& first = *parts[0];
+    report.summary = format("{} x {} {}{}", first.spec.width, first.spec.height, out->spec().format.c_str(),
+                            first.is_encoded ? ", encoded sRGB" : "");
+    if (parts.size() > 1)
+        report.summary += format(", {} parts", parts.size());
+    return true;
 }
 
 }  // namespace
@@ -323,12 +268,15 @@ TypeDesc output_type(const std::string& word)
 bool can_write(const std::string& filename, std::string& error)
 {
     const std::string extension = Filesystem::extension(filename, false);
-    const std::string directory = Filesystem::parent_path(filename);
-    if (extension.empty())
-        error = "expected a name with the extension of an image format, such as .png or .exr";
+    const std::string directory = is_stream(filename) ? "" : Filesystem::parent_path(filename);
+    if (extension.empty() || filename == "-")
+        error = format("expected {} with the extension of an image format, such as .png or .exr",
+                       filename == "-" ? "-" : "a name");
+    else if (is_stream(filename) && !can_write_standard_output(error))
+        ;
     else if (!directory.empty() && !Filesystem::is_directory(directory))
         error = format("no directory \"{}\"", directory);
-    else if (access(directory.empty() ? "." : directory.c_str(), W_OK) != 0)
+    else if (!is_stream(filename) && access(directory.empty() ? "." : directory.c_str(), W_OK) != 0)
         error = format("no permission to write in directory \"{}\"", directory.empty() ? "." : directory);
     else if (Filesystem::is_directory(filename))
         error = "it is a directory";
@@ -338,55 +286,27 @@ bool can_write(const std::string& filename, std::string& error)
     return error.empty();
 }
 
+bool holds_parts(const std::string& filename)
+{
+    const std::unique_ptr<ImageOutput> out = create_output(filename);
+    OIIO::geterror();
+    return out && out->supports("multiimage");
+}
+
+bool write_parts(const std::vector<OutputPicture>& parts, std::size_t picture, const std::string& filename,
+                 const std::function<void(float)>& progress, const OutputReport& report)
+{
+    if (!is_stream(filename))
+        return write_file(parts, picture, filename, progress, report);
+    const TemporaryName scratch(scratch_name(filename));
+    return write_file(parts, picture, scratch.name(), progress, report)
+        && send_to_standard_output(scratch.name(), report.error);
+}
+
 bool write_picture(const OutputPicture& picture, const std::string& filename,
                    const std::function<void(float)>& progress, const OutputReport& report)
 {
-    std::string& error = report.error;
-    const std::unique_ptr<ImageOutput> out = create_output(filename, picture.hierarchy);
-    if (!out) {
-        error = OIIO::geterror();
-        return false;
-    }
-    const TemporaryName file(filename);
-    ImageBuf pixels, kept;  // as they are written, where that differs from what they are
-    const ImageBuf* source = &picture.pixels;
-    const bool names_channels = out->supports("nchannels") || has_pimg_extension(filename);
-    if (!names_channels && !picture.labels && !source->deep()
-        && !keep_picture(source, kept, *out, picture.layer, report))
-        return false;
-    TypeDesc type = picture.types.all;
-    if (picture.encode_srgb && !stored_type(*out, file.name(), source->nchannels(), type, error))
-        return false;
-    const ROI window = writable_window(*source, *out);
-    if (window != source->roi() && !source->deep()) {
-        pixels = OIIO::ImageBufAlgo::crop(*source, window);
-        source = &pixels;
-    }
-    PixelTypes types = picture.types;
-    ImageBuf numbers;
-    if (picture.labels) {
-        if (!convert_labels(*source, *out, file.name(), types.all, numbers, error))
-            return false;
-        source = &numbers;
-    }
-    const bool encode = picture.encode_srgb && !type.is_floating_point() && !source->deep();
-    if (encode) {
-        pixels = srgb_encoded(*source, 0, source == &picture.pixels || names_channels ? picture.layer : "");
-        if (pixels.has_error()) {
-            error = pixels.geterror();
-            return false;
-        }
-        source = &pixels;
-    }
-    ImageSpec spec = file_spec(*source, types, *out);
-    avoid_lossy_codec(picture, spec, report.warning);
-    if (has_pimg_extension(filename))
-        pimg::io::add_hints(spec, picture.options);
-    if (!write_safely(*out, *source, filename, file.name(), spec, progress, error))
-        return false;
-    report.summary =
-        format("{} x {} {}{}", spec.width, spec.height, out->spec().format.c_str(), encode ? ", encoded sRGB" : "");
-    return true;
+    return write_parts({ picture }, 0, filename, progress, report);
 }
 
 }  // namespace pimgtool

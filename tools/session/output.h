@@ -37,6 +37,8 @@ struct OutputPicture {
     const pimg::Hierarchy* hierarchy = nullptr;  ///< of `pixels`, for a .pimg file
     pimg::io::WriteOptions options = {};         ///< of a .pimg file
     std::string layer = {};                      ///< the picture, for formats that hold nothing else; see BuildOptions
+    std::string part = {};                       ///< the name of the part, for messages
+    bool is_straight = false;                    ///< colours are to be multiplied by alpha where the format wants that
 };
 
 /// What there is to say of a file: a few words on what was written, what is not as asked ("" for nothing), and the line
@@ -50,11 +52,19 @@ OIIO::TypeDesc output_type(const std::string& word);
 extern const char* const kOutputTypes;  ///< the words, for help and messages
 
 /// False, with a line saying why, if a file of that name cannot be written: no writer for its extension, no such
-/// directory, a directory.
+/// directory, a directory, a terminal.
 bool can_write(const std::string& filename, std::string& error);
 
-/// Writes to a temporary name beside `filename` and renames it when all is written. Formats without names of channels
-/// get the picture and its alpha.
+/// Whether files of that format hold several parts.
+bool holds_parts(const std::string& filename);
+
+/// Writes the parts of a file, of which `picture` is the one for formats that hold no more. A file is written to a
+/// temporary name beside `filename` and renamed when all is written; what goes to standard output is sent when all is
+/// written. Formats without names of channels get the picture and its alpha.
+bool write_parts(const std::vector<OutputPicture>& parts, std::size_t picture, const std::string& filename,
+                 const std::function<void(float)>& progress, const OutputReport& report);
+
+/// The same for a single picture.
 bool write_picture(const OutputPicture& picture, const std::string& filename,
                    const std::function<void(float)>& progress, const OutputReport& report);
 

@@ -63,11 +63,16 @@ std::string window_text(const pimg::Window& window)
 
 StoredHierarchy::StoredHierarchy(const std::string& filename) : m_proxy(filename, OIIO::Filesystem::IOProxy::Read) { }
 
-std::shared_ptr<StoredHierarchy> StoredHierarchy::open(const std::string& filename)
+std::shared_ptr<StoredHierarchy> StoredHierarchy::open(const std::string& filename, const OIIO::ImageSpec& spec)
 {
+    using pimg::io::kUnassociatedAlpha;
     std::shared_ptr<StoredHierarchy> stored(new StoredHierarchy(filename));
-    const bool opened = stored->m_proxy.opened() && pimg::io::open_decoder(&stored->m_proxy, stored->m_decoder).ok();
-    return opened && stored->m_decoder.has_hierarchy() ? stored : nullptr;
+    if (!stored->m_proxy.opened() || !pimg::io::open_decoder(&stored->m_proxy, stored->m_decoder).ok()
+        || !stored->m_decoder.has_hierarchy())
+        return nullptr;
+    const OIIO::ImageSpec file = pimg::io::to_spec(stored->m_decoder.desc());
+    const bool same = file.get_int_attribute(kUnassociatedAlpha) == spec.get_int_attribute(kUnassociatedAlpha);
+    return same ? stored : nullptr;
 }
 
 bool StoredHierarchy::read(const OIIO::ImageBuf& pixels, const pimg::BuildOptions& options,

@@ -17,8 +17,9 @@ namespace pimgtool {
 /// The hierarchy in a file, to be read when it is needed.
 class StoredHierarchy {
 public:
-    /// Null if the file has none.
-    static std::shared_ptr<StoredHierarchy> open(const std::string& filename);
+    /// Null if the file has none, or if the picture that was read, of which `spec` is the header, is not the one it is of:
+    /// colours that the reader has multiplied by alpha make another hierarchy.
+    static std::shared_ptr<StoredHierarchy> open(const std::string& filename, const OIIO::ImageSpec& spec);
 
     /// `pixels` is the picture in the file.
     bool read(const OIIO::ImageBuf& pixels, const pimg::BuildOptions& options, pimg::ProgressiveImage& image) const;

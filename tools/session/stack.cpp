@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/strutil.h>
 
 #include <pimg/detail/format.h>
+#include <pimg/detail/parts.h>
 #include <pimg/imagebufalgo.h>
 #include <pimg/labels.h>
 
@@ -58,17 +59,26 @@ std::string describe(const OIIO::ImageSpec& stored)
                   stored.nchannels == 1 ? "" : "s", stored.format.c_str(), meaning_of(stored).description());
 }
 
-/// What Orientation of the metadata asks for.
-bool turn_upright(OIIO::ImageBuf& pixels)
+/// A file and what was asked of its reader.
+std::string key_of(const std::string& filename, const InputSettings& settings)
 {
-    OIIO::ImageBuf turned;
-    if (!OIIO::ImageBufAlgo::reorient(turned, pixels)) {
-        pimg::set_error(pixels, turned.geterror());
-        return false;
-    }
-    turned.set_orientation(1);
-    pixels = std::move(turned);
-    return true;
+    std::string key = filename + "\n" + settings.part;
+    for (const OIIO::ParamValue& hint : settings.config.extra_attribs)
+        key += "\n" + hint.name().string() + "=" + hint.get_string();
+    return key;
+}
+
+Picture picture_of(const std::string& filename, const InputPart& part)
+{
+    Picture picture;
+    picture.name = filename;
+    picture.pixels = part.pixels;
+    picture.stored = pixel_types(part.stored);
+    picture.linear_light = holds_linear_light(part.stored);
+    picture.is_straight = part.stored.get_int_attribute(pimg::io::kUnassociatedAlpha) != 0;
+    picture.part = part.number;
+    picture.hierarchy = std::make_shared<LazyHierarchy>();
+    return picture;
 }
 
 std::string label(const char* doing, const std::string& filename)
@@ -93,7 +103,8 @@ void Session::say(const std::string& line) const
 bool Session::read(const std::string& filename)
 {
     const bool again = --m_reads_left[filename] > 0;
-    const auto kept = m_kept.find(filename);
+    const std::string key = key_of(filename, input);
+    const auto kept = m_kept.find(key);
     if (kept != m_kept.end()) {
         stack.push_back(kept->second);
         if (!again)
@@ -101,98 +112,72 @@ bool Session::read(const std::string& filename)
         return true;
     }
     const StageTimer timer(stats, Stage::read);
-    OIIO::ImageSpec stored;
-    const std::shared_ptr<OIIO::ImageBuf> pixels = read_pixels(filename, stored);
-    if (!pixels)
-        return false;
-
-    const std::string space = stored.get_string_attribute("oiio:ColorSpace");
-    if (const std::string ruled = space_of_file(filename, stored); ruled != space) {
-        declare_space(pixels->specmod(), ruled);
-        declare_space(stored, ruled);
-    }
-
-    const bool turned = upright && pixels->orientation() > 1 && !pixels->deep();
-    if (turned && !turn_upright(*pixels))
-        return fail(format("cannot turn \"{}\" upright: {}", filename, pixels->geterror()));
-
-    Picture picture;
-    picture.name = filename;
-    picture.stored = pixel_types(stored);
-    picture.linear_light = holds_linear_light(stored);
-    picture.pixels = pixels;
-    picture.hierarchy = std::make_shared<LazyHierarchy>();
-    if (pimg::io::file_of(filename) == filename && !turned)
-        picture.hierarchy->stored = StoredHierarchy::open(filename);
-    say(format("{}: {}, {:.2f} s", filename, describe(stored), timer.seconds()));
+    ProgressBar bar(label("reading", filename));
+    InputFile file;
+    std::string error;
+    if (!read_file(
+            filename, input, [&](float done) { bar.show(done); }, file, error))
+        return fail(format("cannot read \"{}\": {}", filename, error));
+    if (!file.warning.empty())
+        std::fprintf(stderr, "pimgtool: warning: \"%s\": %s\n", filename.c_str(), file.warning.c_str());
+    Picture picture = picture_of(filename, file.parts[0]);
+    for (std::size_t i = 1; i < file.parts.size(); ++i)
+        picture.others.push_back(picture_of(filename, file.parts[i]));
+    if (pimg::io::file_of(file.path) == file.path && !file.parts[0].turned)
+        picture.hierarchy->stored = StoredHierarchy::open(file.path, file.parts[0].stored);
+    say(format("{}: {}, {:.2f} s", filename, describe(file.parts[0].stored), timer.seconds()));
     stack.push_back(picture);
     if (again)
-        m_kept[filename] = picture;
+        m_kept[key] = picture;
     return true;
 }
 
-std::shared_ptr<OIIO::ImageBuf> Session::read_pixels(const std::string& filename, OIIO::ImageSpec& stored)
+OutputPicture Session::output_of(const Picture& picture) const
 {
-    ProgressBar bar(label("reading", filename));
-    const auto show = [](void* data, float done) {
-        static_cast<ProgressBar*>(data)->show(done);
-        return false;
-    };
-    if (const std::unique_ptr<OIIO::ImageInput> input = pimg_input(filename)) {
-        std::shared_ptr<OIIO::ImageBuf> pixels;
-        if (input->open(filename, stored)) {
-            OIIO::ImageSpec spec = stored;
-            spec.channelformats.clear();
-            spec.tile_width = spec.tile_height = 0;
-            pixels = std::make_shared<OIIO::ImageBuf>(spec);
-            if (input->read_image(0, 0, 0, spec.nchannels, spec.format, pixels->localpixels(), OIIO::AutoStride,
-                                  OIIO::AutoStride, OIIO::AutoStride, show, &bar))
-                return pixels;
-        }
-        fail(format("cannot read {}", input->geterror()));
-        return nullptr;
-    }
-    auto pixels = std::make_shared<OIIO::ImageBuf>(filename);
-    // Forced: straight into memory of our own, in the file's type, and not through the shared image cache.
-    if (!pixels->read(0, 0, true, OIIO::TypeUnknown, show, &bar)) {
-        fail(format("cannot read \"{}\": {}", filename, pixels->geterror()));
-        return nullptr;
-    }
-    if (pixels->nsubimages() > 1)
-        std::fprintf(stderr, "pimgtool: warning: \"%s\": only the first of %d parts is used\n", filename.c_str(),
-                     pixels->nsubimages());
-    stored = pixels->nativespec();
-    return pixels;
+    OutputPicture out { *picture.pixels, picture.stored, picture.linear_light && !output.raw, picture.labels };
+    out.layer = picture.hierarchy->options.layer;
+    out.is_straight = picture.is_straight;
+    out.part = part_name(picture.pixels->spec(), picture.part);
+    if (picture.labels) {
+        out.types = { output.type, {} };
+        out.encode_srgb = false;
+    } else if (output.type != OIIO::TypeUnknown || !output.channel_types.empty())
+        out.types = asked_types(out.pixels.spec(), picture.stored, output, out.layer);
+    return out;
 }
 
 bool Session::write(const std::string& filename, const pimg::io::WriteOptions& options)
 {
     const pimg::Hierarchy* hierarchy = nullptr;
     if (has_pimg_extension(filename) && options.profile == "full") {
-        const pimg::ProgressiveImage* image = hierarchy_of_top();
+        const pimg::ProgressiveImage* image = hierarchy_of(top());
         if (!image)
             return false;
         hierarchy = &image->hierarchy();
     }
     const StageTimer timer(stats, Stage::write);
-    const Picture& picture = top();
-    OutputPicture out { *picture.pixels, picture.stored, picture.linear_light && !output.raw,
-                        picture.labels,  hierarchy,      options };
-    out.layer = picture.hierarchy->options.layer;
-    if (picture.labels) {
-        out.types = { output.type, {} };
-        out.encode_srgb = false;
-    } else if (output.type != OIIO::TypeUnknown || !output.channel_types.empty())
-        out.types = asked_types(out.pixels.spec(), picture.stored, output, out.layer);
+    std::vector<const Picture*> parts { &top() };
+    for (const Picture& other : top().others)
+        parts.push_back(&other);
+    std::sort(parts.begin(), parts.end(), [](const Picture* a, const Picture* b) { return a->part < b->part; });
+    std::vector<OutputPicture> out;
+    for (const Picture* part : parts)
+        out.push_back(output_of(*part));
+    const auto picture = std::size_t(std::find(parts.begin(), parts.end(), &top()) - parts.begin());
+    out[picture].hierarchy = hierarchy;
+    out[picture].options = options;
     ProgressBar bar(label("writing", filename));
     std::string summary, warning, error;
-    const bool written = write_picture(out, filename, [&](float done) { bar.show(done); }, { summary, warning, error });
-    if (!written)
+    const auto show = [&](float done) {
+        bar.show(done);
+    };
+    if (!write_parts(out, picture, filename, show, { summary, warning, error }))
         return fail(format("cannot write \"{}\": {}", filename, error));
     if (!warning.empty())
         std::fprintf(stderr, "pimgtool: warning: \"%s\": %s\n", filename.c_str(), warning.c_str());
     // What will be read under this name is the new file.
-    m_kept.erase(filename);
+    for (auto kept = m_kept.begin(); kept != m_kept.end();)
+        kept = kept->second.name == filename ? m_kept.erase(kept) : std::next(kept);
     OIIO::ImageCache::create(true)->invalidate(OIIO::ustring(filename), true);
     say(format("{}: wrote {}, {:.2f} s", filename, summary, timer.seconds()));
     return true;
@@ -201,54 +186,72 @@ bool Session::write(const std::string& filename, const pimg::io::WriteOptions& o
 bool Session::build(const pimg::BuildOptions& options)
 {
     // Copies made earlier keep theirs.
-    if (!pimg::same_options(top().hierarchy->options, options))
-        top().hierarchy = std::make_shared<LazyHierarchy>(LazyHierarchy { options, nullptr, {} });
-    return hierarchy_of_top() != nullptr;
+    const auto set = [&](Picture& picture) {
+        if (!pimg::same_options(picture.hierarchy->options, options))
+            picture.hierarchy = std::make_shared<LazyHierarchy>(LazyHierarchy { options, nullptr, {} });
+        return true;
+    };
+    return for_parts(set) && hierarchy_of(top()) != nullptr;
 }
 
-const pimg::ProgressiveImage* Session::hierarchy_of_top()
+bool Session::for_parts(const std::function<bool(Picture&)>& work)
 {
-    LazyHierarchy& lazy = *top().hierarchy;
+    Picture result = top();
+    if (!work(result))
+        return false;
+    for (Picture& other : result.others)
+        if (pimg::holds_picture(other.pixels->spec(), top().hierarchy->options.layer) && !work(other))
+            return fail(format("part {}: {}", part_name(other.pixels->spec(), other.part), error()));
+    top() = result;
+    return true;
+}
+
+const pimg::ProgressiveImage* Session::hierarchy_of(const Picture& picture)
+{
+    LazyHierarchy& lazy = *picture.hierarchy;
     if (lazy.image.initialized())
         return &lazy.image;
-    ProgressBar bar(label("building", top().name));
+    ProgressBar bar(label("building", picture.name));
     const auto show = [&](float done) {
         bar.show(done);
         return true;
     };
-    if (lazy.stored ? !lazy.stored->read(*top().pixels, lazy.options, lazy.image)
-                    : !lazy.image.build(*top().pixels, lazy.options, 0, show)) {
+    if (lazy.stored ? !lazy.stored->read(*picture.pixels, lazy.options, lazy.image)
+                    : !lazy.image.build(*picture.pixels, lazy.options, 0, show)) {
         fail(lazy.image.error());
         return nullptr;
     }
     const pimg::Hierarchy& hierarchy = lazy.image.hierarchy();
-    stats.add(top().name, lazy.image);
-    say(format("{}: {} {} vertices, {} splits, {:.2f} s", top().name, lazy.stored ? "read" : "built",
+    stats.add(picture.name, lazy.image);
+    say(format("{}: {} {} vertices, {} splits, {:.2f} s", picture.name, lazy.stored ? "read" : "built",
                hierarchy.vertices(), hierarchy.levels(), lazy.image.stats().simplify_seconds));
     return &lazy.image;
 }
 
 bool Session::filter(const Filter& run, Meaning meaning)
 {
-    const pimg::ProgressiveImage* source = hierarchy_of_top();
+    return for_parts([&](Picture& picture) { return filter(picture, run, meaning); });
+}
+
+bool Session::filter(Picture& picture, const Filter& run, Meaning meaning)
+{
+    const pimg::ProgressiveImage* source = hierarchy_of(picture);
     if (!source)
         return false;
     const StageTimer timer(stats, Stage::filter);
     auto result = std::make_shared<OIIO::ImageBuf>();
     if (!run(*result, *source))
         return fail(result->has_error() ? result->geterror() : "failed");
-
-    Picture picture = top();
     picture.pixels = result;
-    picture.hierarchy = std::make_shared<LazyHierarchy>();
     // What was asked of the first build holds for the next, but for the colour space: the result states its own.
-    picture.hierarchy->options = top().hierarchy->options;
+    const pimg::BuildOptions options = picture.hierarchy->options;
+    picture.hierarchy = std::make_shared<LazyHierarchy>();
+    picture.hierarchy->options = options;
     picture.hierarchy->options.incolorspace.clear();
     if (meaning == Meaning::display_linear)
         picture.linear_light = true;
     picture.labels = result->spec().format == OIIO::TypeUInt32 && result->spec().find_attribute(pimg::kLabelCount);
     say(format("{}: filtered, {:.3f} s", picture.name, timer.seconds()));
-    top() = picture;
     return true;
 }
 
@@ -266,6 +269,9 @@ bool Session::hdr_compress(pimg::HdrCompressOptions options)
         return measured = true;
     }
     anchors.apply(options);
+    // All parts are exposed alike, as views and passes of one scene are to be seen together.
+    if (!top().others.empty() && !iba::resolve_hdr_compress(*top().pixels, options, m_error, top().hierarchy->options))
+        return false;
     const auto run = [&](OIIO::ImageBuf& dst, const pimg::ProgressiveImage& src) {
         return iba::hdr_compress(dst, src, options);
     };
@@ -274,14 +280,19 @@ bool Session::hdr_compress(pimg::HdrCompressOptions options)
 
 bool Session::change_pixels(const PixelOperation& run)
 {
+    return for_parts([&](Picture& picture) { return change_pixels(picture, run); });
+}
+
+bool Session::change_pixels(Picture& picture, const PixelOperation& run)
+{
     const StageTimer timer(stats, Stage::filter);
     auto result = std::make_shared<OIIO::ImageBuf>();
-    if (!run(*result, *top().pixels))
+    if (!run(*result, *picture.pixels))
         return fail(result->has_error() ? result->geterror() : "failed");
     auto hierarchy = std::make_shared<LazyHierarchy>();
-    hierarchy->options = top().hierarchy->options;
-    top().pixels = result;
-    top().hierarchy = hierarchy;
+    hierarchy->options = picture.hierarchy->options;
+    picture.pixels = result;
+    picture.hierarchy = hierarchy;
     return true;
 }
 

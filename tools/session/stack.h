@@ -12,6 +12,7 @@
 #include <OpenImageIO/imagebuf.h>
 #include <pimg/progressive_image.h>
 
+#include "session/input.h"
 #include "session/output.h"
 #include "session/pimg_file.h"
 #include "session/stats.h"
@@ -35,6 +36,9 @@ struct Picture {
     PixelTypes stored;          ///< pixel types of the file it came from: what it is written as unless told otherwise
     bool linear_light = false;  ///< its numbers are linear light that no colour operation has converted
     bool labels = false;        ///< its numbers are those of regions
+    bool is_straight = false;   ///< its reader was asked not to multiply colours by alpha, and no operation has since
+    int part = 0;               ///< its number in that file
+    std::vector<Picture> others = {};  ///< the other parts of that file: filtered with it if they hold a picture
 };
 
 /// What the numbers of a filter's result mean.
@@ -65,8 +69,12 @@ public:
     /// The filter of that name, with the anchors; or, measuring, only finds them.
     bool hdr_compress(pimg::HdrCompressOptions options);
 
-    /// Replaces the pixels of the top picture by those an operation without hierarchy makes of them.
+    /// Replaces the pixels of the top picture by those an operation without hierarchy makes of them, and likewise those
+    /// of the other parts that hold a picture.
     bool change_pixels(const PixelOperation& run);
+
+    /// Runs `work` on the top picture and on the other parts of its file that hold a picture. Nothing changes if it fails.
+    bool for_parts(const std::function<bool(Picture&)>& work);
 
     bool fail(std::string message);
     const std::string& error() const { return m_error; }
@@ -78,21 +86,23 @@ public:
     Picture& top() { return stack.back(); }
 
     std::vector<Picture> stack;
+    InputSettings input;    ///< of the files read from here on
     OutputSettings output;  ///< of the files written from here on
     Stats stats;
     bool verbose = false;
-    bool upright = true;  ///< pictures are turned as their metadata ask while they are read
 
     pimg::Anchors anchors;   ///< of the frame, known from the shot or measured
     bool measuring = false;  ///< the anchors are to be found, nothing else
     bool measured = false;
 
 private:
-    const pimg::ProgressiveImage* hierarchy_of_top();
-    std::shared_ptr<OIIO::ImageBuf> read_pixels(const std::string& filename, OIIO::ImageSpec& stored);
+    const pimg::ProgressiveImage* hierarchy_of(const Picture& picture);
+    bool filter(Picture& picture, const Filter& run, Meaning meaning);
+    bool change_pixels(Picture& picture, const PixelOperation& run);
+    OutputPicture output_of(const Picture& picture) const;
 
     std::map<std::string, int> m_reads_left;
-    std::map<std::string, Picture> m_kept;  ///< pictures that will be read again
+    std::map<std::string, Picture> m_kept;  ///< pictures that will be read again, by name and settings
     std::string m_error;
 };
 

@@ -7,6 +7,7 @@
 #include <OpenImageIO/strutil.h>
 
 #include <pimg/detail/format.h>
+#include <pimg/detail/parts.h>
 
 namespace pimg {
 
@@ -190,6 +191,18 @@ bool holds_data(const OIIO::ImageSpec& spec, int channel)
 {
     const OIIO::TypeDesc type = spec.channelformat(channel);
     return type == OIIO::TypeDesc::UINT32 || type == OIIO::TypeDesc::INT32 || is_data_layer(spec.channel_name(channel));
+}
+
+bool holds_picture(const OIIO::ImageSpec& part, const std::string& layer)
+{
+    if (part.deep || (layer.empty() && is_data_layer(part.get_string_attribute("oiio:subimagename"))))
+        return false;
+    PictureChannels picture;
+    std::string error;
+    if (!find_picture(part, layer, picture, error))
+        return layer.empty();  // several may be the picture: the user is to say which
+    const auto begin = picture.channels.begin();
+    return std::any_of(begin, begin + picture.count, [&](int channel) { return !holds_data(part, channel); });
 }
 
 }  // namespace pimg

@@ -258,7 +258,7 @@ bool Document::build_rung(int version, std::size_t index, const std::atomic<bool
     });
     auto image = std::make_shared<pimg::ProgressiveImage>();
     const auto stored = rung.factor == 1 && pimg::io::file_of(now.filename) == now.filename
-        ? pimgtool::StoredHierarchy::open(now.filename)
+        ? pimgtool::StoredHierarchy::open(now.filename, rung.pixels->spec())
         : nullptr;
     const auto progress = [&](float done) {
         update(version, [&](DocumentState& state) { state.progress = done; });
