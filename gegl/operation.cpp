@@ -31,11 +31,18 @@ struct Operation {
     struct State* state;
 };
 
+/// What the mutex guards is copied before it is worked with: nobody holds the lock while the filter's threads run.
 struct State {
     std::mutex mutex;
-    pimg::OptionTexts texts;  ///< properties that have been set
-    pimg::ProgressiveImage image;
-    std::size_t fingerprint = 0;
+    pimg::OptionTexts texts;       ///< properties that have been set
+    pimg::ProgressiveImage image;  ///< of the pixels that came in last
+    std::size_t fingerprint = 0;   ///< of these pixels
+
+    pimg::OptionTexts texts_now()
+    {
+        const std::lock_guard<std::mutex> lock(mutex);
+        return texts;
+    }
 };
 
 struct OperationClass {
@@ -204,8 +211,7 @@ void declare_primaries(OIIO::ImageSpec& spec, const Babl* format)
     spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), chromaticities);
 }
 
-/// Builds the hierarchy if these are other pixels than the last time.
-bool update(State& state, GeglBuffer* input, const GeglRectangle& box, const Babl* format, std::string& error)
+OIIO::ImageBuf pixels_of(GeglBuffer* input, const GeglRectangle& box, const Babl* format)
 {
     OIIO::ImageSpec spec(box.width, box.height, 4, OIIO::TypeFloat);
     spec.x = box.x;
@@ -213,31 +219,46 @@ bool update(State& state, GeglBuffer* input, const GeglRectangle& box, const Bab
     declare_primaries(spec, format);
     OIIO::ImageBuf pixels(spec);
     gegl_buffer_get(input, &box, 1.0, format, pixels.localpixels(), GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
-    const std::string_view bytes(static_cast<const char*>(pixels.localpixels()), spec.image_bytes());
+    return pixels;
+}
+
+/// The progressive image of these pixels: the one at hand, unless they are others than the last time.
+bool find_image(State& state, const OIIO::ImageBuf& pixels, pimg::ProgressiveImage& image, std::string& error)
+{
+    const std::string_view bytes(static_cast<const char*>(pixels.localpixels()), pixels.spec().image_bytes());
     const std::size_t fingerprint = std::hash<std::string_view>()(bytes);
-    if (state.image.initialized() && state.fingerprint == fingerprint && state.image.spec().roi() == spec.roi())
-        return true;
+    {
+        const std::lock_guard<std::mutex> lock(state.mutex);
+        if (state.image.initialized() && state.fingerprint == fingerprint && state.image.spec().roi() == pixels.roi()) {
+            image = state.image;
+            return true;
+        }
+    }
+    if (!image.build(pixels)) {
+        error = image.error();
+        return false;
+    }
+    const std::lock_guard<std::mutex> lock(state.mutex);
+    state.image = image;
     state.fingerprint = fingerprint;
-    if (!state.image.build(pixels))
-        error = state.image.error();
-    return error.empty();
+    return true;
 }
 
 bool render(Operation* self, GeglBuffer* input, GeglBuffer* output, const GeglRectangle& roi, std::string& error)
 {
     GeglOperation* operation = GEGL_OPERATION(self);
     State& state = *self->state;
-    const std::lock_guard<std::mutex> lock(state.mutex);
-    pimg::BoundFilter filter;
-    const GeglRectangle box = whole_input(operation);
     const Babl* format = pixel_format(operation);
-    if (!class_of(self)->filter->bind(state.texts, filter, error) || !update(state, input, box, format, error))
+    pimg::BoundFilter filter;
+    pimg::ProgressiveImage image;
+    if (!class_of(self)->filter->bind(state.texts_now(), filter, error)
+        || !find_image(state, pixels_of(input, whole_input(operation), format), image, error))
         return false;
     OIIO::ImageSpec spec(roi.width, roi.height, 4, OIIO::TypeFloat);
     spec.x = roi.x;
     spec.y = roi.y;
     OIIO::ImageBuf result(spec);
-    if (!filter(result, state.image, result.roi(), 0)) {
+    if (!filter(result, image, result.roi(), 0)) {
         error = result.has_error() ? result.geterror() : "the filter failed";
         return false;
     }
