@@ -18,9 +18,6 @@ constexpr int kStrip = 64;  ///< rows of a task
 /// Largest change of a slope's brightness at relief = 1, as a share of it. Chosen by eye; more: deeper tiles.
 constexpr float kLight = 0.6f;
 
-/// Share of a tile's largest depth that half a joint may take, so that slivers keep two thirds of themselves.
-constexpr float kMostOfTile = 1.0f / 3.0f;
-
 struct Depth {
     float inside, x, y;
 };

@@ -195,7 +195,7 @@ std::string part_name(const ImageSpec& spec, int number)
     return name.empty() ? std::to_string(number) : name;
 }
 
-bool read_file(const std::string& filename, const InputSettings& settings, const Progress& progress, InputFile& file,
+bool read_file(const std::string& filename, const InputOptions& settings, const Progress& progress, InputFile& file,
                std::string& error)
 {
     file = {};

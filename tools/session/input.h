@@ -13,7 +13,7 @@
 namespace pimgtool {
 
 /// What `--part` and `--iconfig` say about the files that follow, and what the outputs need.
-struct InputSettings {
+struct InputOptions {
     std::string part;         ///< number from 0, name, or "all"; empty: all if `keeps_parts`, else the picture
     OIIO::ImageSpec config;   ///< hints for readers
     bool keeps_parts = true;  ///< an output holds several parts
@@ -37,7 +37,7 @@ struct InputFile {
 
 /// Reads a file, or standard input. The picture is the part asked for, else the first that holds a picture. False, with
 /// the reason in `error`, if that is not possible.
-bool read_file(const std::string& filename, const InputSettings& settings, const std::function<void(float)>& progress,
+bool read_file(const std::string& filename, const InputOptions& settings, const std::function<void(float)>& progress,
                InputFile& file, std::string& error);
 
 /// What a part is called in messages: its name, else its number.

@@ -22,7 +22,7 @@ struct PixelTypes {
 };
 
 /// What `-d` and `--raw` say about the files that follow.
-struct OutputSettings {
+struct OutputOptions {
     OIIO::TypeDesc type;                                  ///< UNKNOWN: as the input was stored
     std::map<std::string, OIIO::TypeDesc> channel_types;  ///< of channels, or of all of a layer, by name
     bool raw = false;                                     ///< numbers are written as they are

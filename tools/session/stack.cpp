@@ -29,7 +29,7 @@ PixelTypes pixel_types(const OIIO::ImageSpec& stored)
 }
 
 /// Types as -d asks for them: channels of data keep theirs unless named.
-PixelTypes asked_types(const OIIO::ImageSpec& spec, const PixelTypes& stored, const OutputSettings& output,
+PixelTypes asked_types(const OIIO::ImageSpec& spec, const PixelTypes& stored, const OutputOptions& output,
                        const std::string& layer)
 {
     PixelTypes types { output.type != OIIO::TypeUnknown ? output.type : stored.all, {} };
@@ -60,7 +60,7 @@ std::string describe(const OIIO::ImageSpec& stored)
 }
 
 /// A file and what was asked of its reader.
-std::string key_of(const std::string& filename, const InputSettings& settings)
+std::string key_of(const std::string& filename, const InputOptions& settings)
 {
     std::string key = filename + "\n" + settings.part;
     for (const OIIO::ParamValue& hint : settings.config.extra_attribs)

@@ -86,8 +86,8 @@ public:
     Picture& top() { return stack.back(); }
 
     std::vector<Picture> stack;
-    InputSettings input;    ///< of the files read from here on
-    OutputSettings output;  ///< of the files written from here on
+    InputOptions input;    ///< of the files read from here on
+    OutputOptions output;  ///< of the files written from here on
     Stats stats;
     bool verbose = false;
 

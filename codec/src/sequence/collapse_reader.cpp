@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include <pimg/detail/analyse.h>
 #include <pimg/detail/projection.h>
 
 #include "entropy/binary_coder.h"
@@ -382,7 +383,7 @@ Status SequenceReader::finish(Hierarchy& h, std::vector<Bands>& bands)
         return status;
     h = std::move(m_h);
     for (std::size_t c = 0; c < m_bands.size(); ++c)
-        values_to_details(h, h.between.empty() ? nullptr : m_channels[c], m_bands[c]);
+        subtract_predictions(h, h.between.empty() ? nullptr : m_channels[c], m_bands[c]);
     bands = std::move(m_bands);
     return {};
 }

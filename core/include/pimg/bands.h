@@ -74,11 +74,6 @@ void interpolate_between(const Hierarchy& hierarchy, float* samples, const Paral
 template<class Gain>
 void add_residual(const Bands& bands, float* samples, Gain&& gain);
 
-/// The last step of analysis. On entry bands.details hold the values of t and u themselves; on return they hold details,
-/// that is values minus predictions. It also fills the residual from the channel's samples, one per mesh pixel. Predictions
-/// are made from the values that synthesis will compute, so that rounding errors do not add up over the levels.
-void values_to_details(const Hierarchy& hierarchy, const float* samples, Bands& bands);
-
 template<class Gain>
 void sweep(const Hierarchy& hierarchy, const Bands& bands, float* values, Level levels, Gain&& gain)
 {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mesh/pixel_stencils.h"
+#include <pimg/detail/analyse.h>
 #include <pimg/detail/parallel.h>
 
 namespace pimg {
@@ -202,7 +203,7 @@ Status assemble(int width, int height, const Finest& finest, CollapseSequence&& 
     fill_pixels(finest, number, h);
     run(finest.parallel, 1 + b.size(), [&](std::size_t task) {
         if (task > 0) {
-            values_to_details(h, finest.guide.channels[task - 1].samples, b[task - 1]);
+            subtract_predictions(h, finest.guide.channels[task - 1].samples, b[task - 1]);
             return;
         }
         // Giving memory back takes as long as a channel.

@@ -50,7 +50,7 @@ public:
 
 private:
     bool sweep(float limit);
-    void sweep_color(int color, float limit);
+    void sweep_colour(int colour, float limit);
     void collect(std::size_t n);
     void measure();
     bool anything_left() const;
@@ -82,8 +82,8 @@ bool Simplifier::run()
 
 bool Simplifier::sweep(float limit)
 {
-    for (int color = 0; color < 4; ++color) {
-        sweep_color(color, limit);
+    for (int colour = 0; colour < 4; ++colour) {
+        sweep_colour(colour, limit);
         if (!report())
             return false;
     }
@@ -96,11 +96,11 @@ bool Simplifier::sweep(float limit)
     return true;
 }
 
-void Simplifier::sweep_color(int color, float limit)
+void Simplifier::sweep_colour(int colour, float limit)
 {
     std::vector<const Tile*> tiles;
     for (const Tile& tile : m_mesh.tiles)
-        if (int(tile.x & 1) + 2 * int(tile.y & 1) == color)
+        if (int(tile.x & 1) + 2 * int(tile.y & 1) == colour)
             tiles.push_back(&tile);
     m_outputs.resize(std::max(m_outputs.size(), tiles.size()));
     pimg::run(m_options.parallel, tiles.size(), [&](std::size_t i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Analysis of further channels: replays the splits to the finest level, then undoes them one by one.
 #include <pimg/bands.h>
+#include <pimg/detail/analyse.h>
 #include <pimg/detail/parallel.h>
 
 #include <algorithm>
@@ -77,6 +78,24 @@ VolumeStencil volume_stencil(const Mesh& fine, Index s, Index u, Point coarse)
 
 }  // namespace
 
+void subtract_predictions(const Hierarchy& h, const float* samples, Bands& bands)
+{
+    std::vector<float> values(h.vertices());
+    std::vector<Detail>& details = bands.details;
+    sweep(h, bands, values.data(), h.levels(), [&](Level i, Detail) {
+        const SplitPair predicted = predict(h.stencils[i], values.data());
+        details[i] = { details[i].t - predicted.t, details[i].u - predicted.u };
+        return details[i];
+    });
+    bands.residual.clear();
+    if (h.between.empty())
+        return;
+    bands.residual.resize(h.mesh_pixels());
+    scatter(h, values.data(), bands.residual.data());
+    for (std::size_t p = 0; p < bands.residual.size(); ++p)
+        bands.residual[p] = samples[p] - bands.residual[p];
+}
+
 Status analyse(const Hierarchy& h, const std::vector<const float*>& channels, std::vector<Bands>& bands,
                const ParallelFor& parallel)
 {
@@ -122,7 +141,7 @@ Status analyse(const Hierarchy& h, const std::vector<const float*>& channels, st
     }
     run(parallel, channels.size(), [&](std::size_t c) {
         bands[c].base.assign(values[c].begin(), values[c].begin() + base);
-        values_to_details(h, channels[c], bands[c]);
+        subtract_predictions(h, channels[c], bands[c]);
     });
     return {};
 }

@@ -16,24 +16,6 @@ float Bands::largest_detail() const
     return largest;
 }
 
-void values_to_details(const Hierarchy& h, const float* samples, Bands& bands)
-{
-    std::vector<float> values(h.vertices());
-    std::vector<Detail>& details = bands.details;
-    sweep(h, bands, values.data(), h.levels(), [&](Level i, Detail) {
-        const SplitPair predicted = predict(h.stencils[i], values.data());
-        details[i] = { details[i].t - predicted.t, details[i].u - predicted.u };
-        return details[i];
-    });
-    bands.residual.clear();
-    if (h.between.empty())
-        return;
-    bands.residual.resize(h.mesh_pixels());
-    scatter(h, values.data(), bands.residual.data());
-    for (std::size_t p = 0; p < bands.residual.size(); ++p)
-        bands.residual[p] = samples[p] - bands.residual[p];
-}
-
 std::vector<float> to_mesh_pixels(const Hierarchy& h, const float* samples)
 {
     std::vector<float> mesh;

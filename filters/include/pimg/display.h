@@ -17,6 +17,9 @@ OIIO::ImageBuf srgb_encoded(const OIIO::ImageBuf& src, int nthreads = 0, const s
 /// Applies the sRGB curve to `count` numbers in place. Below 0 the curve is a straight line, and above 1 it continues.
 void srgb_in_place(float* values, std::size_t count);
 
+/// Linear light of a number that the sRGB curve encodes: the inverse of srgb_in_place().
+double srgb_decoded(double encoded);
+
 /// Sets the metadata that name the colour space of the pixels. "" stands for a space without a name.
 void declare_space(OIIO::ImageSpec& spec, const std::string& space);
 

@@ -111,7 +111,7 @@ bool is_linear(const OCIO::ConstCPUProcessorRcPtr& processor)
 /// From a space of the configuration to Rec. 709, by way of a space that is known to have these primaries. False if the
 /// configuration has none such or one of the two is not linear.
 bool matrix_through(const OCIO::ConstConfigRcPtr& config, const char* space, const char* known,
-                    const Chromaticities& primaries, Matrix3& matrix)
+                    const Chromaticities& primaries, Imath::M33d& matrix)
 {
     const OCIO::ConstColorSpaceRcPtr to = config->getColorSpace(known);
     if (to == nullptr || to->getReferenceSpaceType() != OCIO::REFERENCE_SPACE_SCENE)
@@ -119,22 +119,22 @@ bool matrix_through(const OCIO::ConstConfigRcPtr& config, const char* space, con
     const auto processor = cpu(config->getProcessor(space, to->getName()));
     if (!is_linear(processor))
         return false;
-    Matrix3 columns, known_matrix, inverse;
+    Imath::M33d to_known, known_matrix, inverse;
     for (std::size_t i = 0; i < 3; ++i) {
         float unit[3] = { 0.0f, 0.0f, 0.0f };
         unit[i] = 1.0f;
         processor->applyRGB(unit);
         for (std::size_t j = 0; j < 3; ++j)
-            columns[3 * j + i] = double(unit[j]);
+            to_known[int(i)][j] = double(unit[j]);
     }
     if (!matrix_to_rec709(primaries, known_matrix))
         return false;
-    matrix = product(known_matrix, columns);
+    matrix = to_known * known_matrix;
     return invert(matrix, inverse);
 }
 
 /// From a linear space of the configuration to Rec. 709; see Colour::resolve().
-bool matrix_of(const OCIO::ConstConfigRcPtr& config, const char* space, Matrix3& matrix)
+bool matrix_of(const OCIO::ConstConfigRcPtr& config, const char* space, Imath::M33d& matrix)
 {
     const bool found = matrix_through(config, space, "aces_interchange", kAp0, matrix)
         || matrix_through(config, space, "cie_xyz_d65_interchange", kXyzD65, matrix)
@@ -170,9 +170,11 @@ OCIO::TransformRcPtr curves(const std::vector<float> (&samples)[3])
     return transform;
 }
 
-OCIO::TransformRcPtr matrix_transform(const Matrix3& m)
+OCIO::TransformRcPtr matrix_transform(const Imath::M33d& matrix)
 {
-    const double rows[16] = { m[0], m[1], m[2], 0, m[3], m[4], m[5], 0, m[6], m[7], m[8], 0, 0, 0, 0, 1 };
+    const Imath::M33d m = matrix.transposed();  // OpenColorIO's act on columns
+    const double rows[16] = { m[0][0], m[0][1], m[0][2], 0, m[1][0], m[1][1], m[1][2], 0,
+                              m[2][0], m[2][1], m[2][2], 0, 0,       0,       0,       1 };
     const auto transform = OCIO::MatrixTransform::Create();
     transform->setMatrix(rows);
     return transform;
@@ -190,17 +192,17 @@ std::vector<float> to_floats(const Chromaticities& primaries)
 
 void multiply(const std::array<float, 9>& m, float* rgb, std::size_t count)
 {
+    const Imath::M33f matrix(m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8]);
     for (float* p = rgb; p != rgb + 3 * count; p += 3) {
-        const float r = p[0], g = p[1], b = p[2];
-        for (std::size_t i = 0; i < 3; ++i)
-            p[i] = m[3 * i] * r + m[3 * i + 1] * g + m[3 * i + 2] * b;
+        const Imath::V3f product = Imath::V3f(p[0], p[1], p[2]) * matrix;
+        std::copy(&product.x, &product.x + 3, p);
     }
 }
 
-std::array<float, 9> to_floats(const Matrix3& matrix)
+std::array<float, 9> to_floats(const Imath::M33d& matrix)
 {
     std::array<float, 9> result;
-    std::copy(matrix.begin(), matrix.end(), result.begin());
+    std::copy(matrix[0], matrix[0] + 9, result.begin());
     return result;
 }
 
@@ -217,24 +219,23 @@ struct ColourFinder {
     }
 
     /// Linear samples are these times Rec. 709.
-    void set_matrix(const Matrix3& to_rec709)
+    void set_matrix(const Imath::M33d& to_rec709)
     {
-        Matrix3 inverse;
-        colour.m_converts = !is_near(to_rec709, kIdentity, kSameMatrix) && invert(to_rec709, inverse);
+        Imath::M33d inverse;
+        colour.m_converts = !to_rec709.equalWithAbsError(Imath::M33d(), kSameMatrix) && invert(to_rec709, inverse);
         colour.m_weights = kRec709Weights;
         if (!colour.m_converts)
             return;
         colour.m_to_rec709 = to_floats(to_rec709);
         colour.m_from_rec709 = to_floats(inverse);
-        for (std::size_t i = 0; i < 3; ++i)
-            colour.m_weights[i] =
-                float(double(kRec709Weights[0]) * to_rec709[i] + double(kRec709Weights[1]) * to_rec709[3 + i]
-                      + double(kRec709Weights[2]) * to_rec709[6 + i]);
+        const Imath::V3d rec709(kRec709Weights[0], kRec709Weights[1], kRec709Weights[2]);
+        const Imath::V3d weights = rec709 * to_rec709.transposed();
+        colour.m_weights = { float(weights.x), float(weights.y), float(weights.z) };
     }
 
     bool set_primaries(const Chromaticities& primaries)
     {
-        Matrix3 matrix;
+        Imath::M33d matrix;
         if (!matrix_to_rec709(primaries, matrix))
             return false;
         set_matrix(matrix);
@@ -245,7 +246,7 @@ struct ColourFinder {
     /// Linear samples in a space of the configuration.
     void use_linear_space(const char* name)
     {
-        Matrix3 matrix;
+        Imath::M33d matrix;
         colour.m_linear_name = config->getColorSpace(name)->getName();
         if (matrix_of(config, name, matrix)) {
             set_matrix(matrix);
@@ -280,16 +281,16 @@ struct ColourFinder {
     /// Samples that `decoder` makes linear, with these primaries; in a configuration they become its scene-linear.
     bool use_encoded(const OCIO::TransformRcPtr& decoder, const Chromaticities& primaries)
     {
-        Matrix3 own, working, from_rec709;
+        Imath::M33d own, working, from_rec709;
         if (!matrix_to_rec709(primaries, own))
             return false;
         const auto group = OCIO::GroupTransform::Create();
         group->appendTransform(decoder);
         if (has_scene_linear() && matrix_of(config, OCIO::ROLE_SCENE_LINEAR, working) && invert(working, from_rec709)) {
-            if (!is_near(own, working, kSameMatrix))
-                group->appendTransform(matrix_transform(product(from_rec709, own)));
+            if (!own.equalWithAbsError(working, kSameMatrix))
+                group->appendTransform(matrix_transform(own * from_rec709));
             use_scene_linear();
-        } else if (!is_near(own, kIdentity, kSameMatrix))
+        } else if (!own.equalWithAbsError(Imath::M33d(), kSameMatrix))
             set_primaries(primaries);
         set_decoder(cpu(raw_config()->getProcessor(group)));
         return true;
@@ -349,11 +350,11 @@ struct ColourFinder {
         Chromaticities c;
         const float* stored = static_cast<const float*>(attribute->data());
         std::copy(stored, stored + 8, c.begin());
-        Matrix3 own, working = kIdentity;
+        Imath::M33d own, working;
         if (!matrix_to_rec709(c, own))
             return false;
         const bool comparable = !has_scene_linear() || matrix_of(config, OCIO::ROLE_SCENE_LINEAR, working);
-        if (comparable && is_near(own, working, kSameMatrix))
+        if (comparable && own.equalWithAbsError(working, kSameMatrix))
             use_samples_as_scene_linear();
         set_matrix(own);
         colour.m_chromaticities.assign(stored, stored + 8);

@@ -2,6 +2,7 @@
 #include <pimg/display.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <pimg/colour.h>
@@ -10,6 +11,7 @@
 #include <pimg/threads.h>
 
 #include "base/float_copy.h"
+#include "colour/spaces.h"
 
 namespace pimg {
 
@@ -77,6 +79,11 @@ ImageBuf srgb_encoded(const ImageBuf& src, int nthreads, const std::string& laye
         });
     declare_space(dst.specmod(), "sRGB");
     return dst;
+}
+
+double srgb_decoded(double encoded)
+{
+    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + kSrgbOffset) / (1.0 + kSrgbOffset), kSrgbGamma);
 }
 
 void declare_space(OIIO::ImageSpec& spec, const std::string& space)

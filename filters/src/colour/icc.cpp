@@ -6,7 +6,7 @@
 
 #include <lcms2.h>
 
-#include "colour/spaces.h"
+#include <pimg/display.h>
 
 namespace pimg {
 
@@ -57,11 +57,6 @@ bool read_curve(const Profile& profile, cmsTagSignature signature, std::vector<f
     return true;
 }
 
-double srgb_curve(double x)
-{
-    return x <= 0.04045 ? x / 12.92 : std::pow((x + kSrgbOffset) / (1.0 + kSrgbOffset), kSrgbGamma);
-}
-
 /// Whether all three curves are `expected`.
 template<class Expected>
 bool are(const IccSpace& space, Expected&& expected)
@@ -91,11 +86,11 @@ bool read_icc(const void* bytes, std::size_t size, IccSpace& space)
             && read_curve(profile, cmsSigGreenTRCTag, space.curves[1])
             && read_curve(profile, cmsSigBlueTRCTag, space.curves[2]);
     }
-    Matrix3 matrix;
+    Imath::M33d matrix;
     if (!found || !matrix_to_rec709(space.primaries, matrix))
         return false;
     space.linear = are(space, [](double x) { return x; });
-    space.srgb = is_near(matrix, kIdentity, kSameSpace) && are(space, srgb_curve);
+    space.srgb = matrix.equalWithAbsError(Imath::M33d(), kSameSpace) && are(space, srgb_decoded);
     char name[64] = "";
     cmsGetProfileInfoASCII(profile.get(), cmsInfoDescription, "en", "US", name, sizeof name);
     space.name = name;

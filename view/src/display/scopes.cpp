@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <pimg/display.h>
+
 #include "render/frame.h"
 
 namespace pimgview {
@@ -27,7 +29,7 @@ int for_pixels(const Rendering& rendering, See&& see)
         double linear[3];
         for (int c = 0; c < 3; ++c) {
             const double v = double(rgb[c]);
-            linear[c] = !frame.light.encoded ? v : v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+            linear[c] = frame.light.encoded ? pimg::srgb_decoded(v) : v;
         }
         const auto row = [&](std::size_t r) {
             return double(m[3 * r]) * linear[0] + double(m[3 * r + 1]) * linear[1] + double(m[3 * r + 2]) * linear[2];
@@ -63,8 +65,8 @@ Waveform waveform_of(const Rendering& rendering, int columns)
     std::vector<std::pair<int, double>> seen;
     const int width = for_pixels(rendering, [&](int x, double luminance) { seen.emplace_back(x, luminance); });
     for (const auto& [x, luminance] : seen) {
-        const double y = std::isnan(luminance) ? 0.0 : std::clamp(luminance, 0.0, 1.0);
-        const double code = y <= 0.0031308 ? 12.92 * y : 1.055 * std::pow(y, 1.0 / 2.4) - 0.055;
+        float code = std::isnan(luminance) ? 0.0f : float(std::clamp(luminance, 0.0, 1.0));
+        pimg::srgb_in_place(&code, 1);
         const int row = Waveform::kRows - 1 - int(std::lround(code * (Waveform::kRows - 1)));
         ++waveform.shares[std::size_t(row) * std::size_t(columns) + std::size_t(std::int64_t(x) * columns / width)];
     }

@@ -8,6 +8,7 @@
 #include <OpenImageIO/imagebufalgo.h>
 
 #include <pimg/detail/format.h>
+#include <pimg/display.h>
 #include <pimg/paint.h>
 
 #include "frame/image_filter.h"
@@ -146,9 +147,11 @@ ShownColours shown(ShownColours colours, const ProgressiveImage::Data& data)
 {
     colours.resize(std::size_t(data.colour.count()));  // without alpha
     if (!data.colour.encoded())
-        for (std::vector<float>& channel : colours)
+        for (std::vector<float>& channel : colours) {
             for (float& value : channel)
-                value = srgb_encoded(value);
+                value = value > 0.0f ? std::min(value, 1.0f) : 0.0f;
+            srgb_in_place(channel.data(), channel.size());
+        }
     return colours;
 }
 

@@ -183,12 +183,4 @@ bool write_strokes(const std::string& filename, const Strokes& strokes, const Sh
     return false;
 }
 
-float srgb_encoded(float linear)
-{
-    if (!(linear > 0.0f))
-        return 0.0f;
-    return linear < 0.0031308f ? 12.92f * linear
-                               : 1.055f * float(elementary::power(double(std::min(linear, 1.0f)), 1.0 / 2.4)) - 0.055f;
-}
-
 }  // namespace pimg

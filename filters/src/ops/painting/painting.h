@@ -46,7 +46,4 @@ bool write_strokes(const std::string& filename, const Strokes& strokes, const Sh
 /// Checks the extension before any work is done.
 bool check_strokes_name(const std::string& filename, std::string& error);
 
-/// Linear light 0..1 to sRGB.
-float srgb_encoded(float linear);
-
 }  // namespace pimg
