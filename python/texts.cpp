@@ -132,9 +132,9 @@ For the same ProgressiveImage, another number of regions takes one pass, and the
       "Like the source.",
       kFilterErrors },
     { "ink",
-      R"(Draws the picture in black lines (0) on white paper (1), along its edges (paper, section 7).)",
+      R"(Draws the picture in pen and ink on white paper: outlines, and hatching or dots as dark as the picture (paper, section 7).)",
       { "roi", "nthreads" },
-      "Like the source, with equal colour channels.",
+      "Like the source. With one ink, the colour channels are equal.",
       kFilterErrors },
     { "level",
       R"(Shows the mesh M_i of one level as a picture: its triangles, Gouraud-shaded.

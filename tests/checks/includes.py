@@ -20,6 +20,7 @@ ROOMS = {
     "codec/src/mesh_layer": ["codec/include", "codec/src/entropy", "core"],
     "codec/src/sequence": ["codec/include", "codec/src/entropy", "codec/src/raster", "codec/src/mesh_layer", "core"],
     "codec/src": ["codec", "core"],
+    "painting/src/drawing": ["painting", "core"],
     "painting": ["core"],
     "filters/src/base": ["core"],
     "filters/src/colour": ["filters/src/base", "core"],

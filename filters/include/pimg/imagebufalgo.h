@@ -136,8 +136,10 @@ inline constexpr FilterForms<PaintOptions> paint { "paint", on_hierarchy::paint 
 /// joints between them and slopes at their sides. NaN and Inf become the mean of what is around them.
 inline constexpr FilterForms<MosaicOptions> mosaic { "mosaic", on_hierarchy::mosaic };
 
-/// Draws the picture in pen and ink (section 7): black lines (0) on white paper (1), along the edges, the closer together
-/// the darker the picture is.
+/// Draws the picture in pen and ink (section 7), on white paper: outlines along the features that survive smoothing, and
+/// hatching lines or dots that cover as much of the paper as the picture's L* asks for, seen from afar. The first ink is
+/// black; more inks are chosen from the colours of the picture's regions. Sizes follow the paper, so that a picture gives
+/// nearly the same drawing at any resolution.
 inline constexpr FilterForms<InkOptions> ink { "ink", on_hierarchy::ink };
 
 // NOLINTEND(readability-identifier-naming)

@@ -202,13 +202,20 @@ struct MosaicOptions {
 
 /// Pen and ink (section 7).
 struct InkOptions {
-    float width = 1.3f;    ///< width of the pen in pixels
-    float length = 1.0f;   ///< factor on the length of lines
-    float density = 1.0f;  ///< factor on the darkness
-    float outline = 1.0f;  ///< darkness added along edges
-    bool cross = true;     ///< draw lines in a second direction where it is dark
-    int seed = 1;          ///< another seed gives other random changes
-    std::string strokes;   ///< FILE.svg or FILE.json to write the lines to; empty: none
+    std::string style = "hatch";  ///< hatch, contour (lines follow the forms) or stipple (dots)
+    std::string paper = "a5";     ///< a0 to a6 or WxH in millimetres: the sheet that the picture fills
+    float pen = 0.4f;             ///< width of the pen on the paper in millimetres; at least half a pixel
+    float width = 0.0f;           ///< the same in pixels; 0: found from pen and paper
+    float spacing = 2.0f;         ///< least distance of hatching lines, in widths of the pen
+    float detail = 0.5f;          ///< 0: outlines of the large features only; 1: of every edge
+    float length = 1.0f;          ///< factor on the length of hatching lines
+    float density = 1.0f;         ///< factor on the darkness; 0: outlines only
+    float outline = 1.0f;         ///< factor on the width of outlines; 0: none
+    bool cross = true;            ///< draw lines in a second direction where it is dark
+    int colours = 1;              ///< number of inks, the first of which is black
+    bool sort = false;            ///< for plotters: lines in the order of a short way, middle lines in SVG
+    int seed = 1;                 ///< another seed gives other random changes
+    std::string strokes;          ///< FILE.svg or FILE.json to write the lines to; empty: none
 };
 
 template<>

@@ -9,6 +9,8 @@
 #include <pimg/colour.h>
 #include <pimg/direction.h>
 #include <pimg/display.h>
+#include <pimg/drawing.h>
+#include <pimg/drawing_file.h>
 #include <pimg/dual_pieces.h>
 #include <pimg/filter_forms.h>
 #include <pimg/filter_table.h>
@@ -17,6 +19,7 @@
 #include <pimg/hierarchy.h>
 #include <pimg/imagebufalgo.h>
 #include <pimg/ink.h>
+#include <pimg/inks.h>
 #include <pimg/labels.h>
 #include <pimg/mesh.h>
 #include <pimg/mosaic.h>

@@ -3,46 +3,240 @@
 #include <pimg/imagebufalgo.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include <OpenImageIO/strutil.h>
+
+#include <pimg/detail/elementary.h>
 #include <pimg/detail/format.h>
+#include <pimg/detail/safe_file.h>
+#include <pimg/display.h>
+#include <pimg/drawing_file.h>
 #include <pimg/ink.h>
-#include <pimg/paint.h>
+#include <pimg/smoothing.h>
 
 #include "frame/image_filter.h"
 #include "ops/painting/painting.h"
+#include "source/lab.h"
 
 namespace pimg {
 namespace ImageBufAlgo {
 
 namespace {
 
-/// White paper with black lines.
-bool draw(ProgressiveImage::Data& data, const InkOptions& options, const ParallelFor& parallel,
-          std::vector<float>& paper, std::string& error)
+/// Strengths, in 8-bit steps, of what is taken from a picture before its edges are looked for: texture and noise, and all
+/// but the important features. By eye; more: fewer and smoother outlines.
+constexpr float kTexture = 6.0f, kUnimportant = 20.0f;
+
+/// Regions whose colours the inks are chosen from. By eye; more would only cost time.
+constexpr Index kRegions = 400;
+
+/// Pens that fit along the longer side of a picture at most: what is planned grows as the square of it.
+constexpr double kMostPens = 4000.0;
+
+/// Least width in pixels of a pen that is given in millimetres: small pictures have nothing for finer ones to draw.
+constexpr float kFinestPen = 0.5f;
+
+/// A picture with what drawing it needs, over the mesh's pixels.
+struct Sitter {
+    std::vector<float> lightness;
+    Channels features, base;
+    std::vector<std::uint8_t> ink_of;
+    InkPicture picture;
+};
+
+/// L* of a grey value encoded in sRGB.
+float lightness_of_grey(float v)
+{
+    const float light = float(srgb_decoded(double(v)));
+    return light > 216.0f / 24389.0f ? 116.0f * float(elementary::cube_root(double(light))) - 16.0f
+                                     : light * (24389.0f / 27.0f);
+}
+
+/// L* of every mesh pixel on white paper: what is transparent is as light as that.
+std::vector<float> lightness(const ProgressiveImage::Data& data, const OwnedChannels& eye, const Channels& lab)
+{
+    std::vector<float> tones;
+    if (data.colour.encoded()) {
+        tones = to_mesh_pixels(data.hierarchy, lab[0].data());
+    } else {
+        tones = darkness(data, eye);
+        for (float& tone : tones)
+            tone = lightness_of_grey(1.0f - tone);
+    }
+    const std::vector<float> alpha = alpha_of(data);
+    if (!alpha.empty()) {
+        const std::vector<float> cover = to_mesh_pixels(data.hierarchy, alpha.data());
+        for (std::size_t i = 0; i < tones.size(); ++i)
+            tones[i] += 100.0f * (1.0f - std::clamp(cover[i], 0.0f, 1.0f));
+    }
+    return tones;
+}
+
+ChannelsView view_of(const ProgressiveImage::Data& data, const Channels& channels)
+{
+    ChannelsView view { data.hierarchy.mesh_width(), data.hierarchy.mesh_height(), {} };
+    for (const std::vector<float>& channel : channels)
+        view.channels.push_back(channel.data());
+    return view;
+}
+
+/// Chooses inks from the colours of the picture's regions.
+bool fill_inkwells(ProgressiveImage::Data& data, const InkOptions& options, const Channels& lab,
+                   const ParallelFor& parallel, Sitter& sitter, std::string& error)
+{
+    const Index count = Index(std::min<std::size_t>(kRegions, data.spec.image_pixels()));
+    const auto tree = data.region_tree(count, parallel, error);
+    if (tree == nullptr)
+        return false;
+    const std::vector<Index> labels = tree->labels(count);
+    std::vector<RegionColour> regions(count, RegionColour { {}, 0.0f });
+    for (std::size_t c = 0; c < 3; ++c) {
+        const std::vector<float> means = label_means(labels, count, lab[c].data());
+        for (Index i = 0; i < count; ++i)
+            regions[i].lab[c] = means[i];
+    }
+    for (const Index label : labels)
+        regions[label].area += 1.0f;
+    const InkChoice choice = choose_inks(regions, options.colours);
+    std::vector<float> inks;
+    for (const Index label : labels)
+        inks.push_back(float(choice.ink_of_region[label]));
+    for (const float ink : to_mesh_pixels(data.hierarchy, inks.data()))
+        sitter.ink_of.push_back(std::uint8_t(ink));
+    sitter.picture.inks = choice.inks;
+    sitter.picture.ink = sitter.ink_of.data();
+    return true;
+}
+
+bool seat(ProgressiveImage::Data& data, const InkOptions& options, const ParallelFor& parallel, Sitter& sitter,
+          std::string& error)
 {
     OwnedChannels eye;
-    if (!check_strokes_name(options.strokes, error) || !eye_channels(data, parallel, eye, error))
+    if (!eye_channels(data, parallel, eye, error))
         return false;
-    const DirectionField field(eye.view(), parallel);
+    const bool coloured = options.colours > 1 && data.colour.count() == 3;
+    Channels lab;
+    if (data.colour.encoded() || coloured)
+        lab = lab_channels(data.source, data.colour, parallel);
+    sitter.lightness = lightness(data, eye, lab);
+    if (coloured && !fill_inkwells(data, options, lab, parallel, sitter, error))
+        return false;
+    const SmoothingSource source = analyse_for_smoothing(data.hierarchy, std::move(eye.channels));
+    smooth(data.hierarchy, source, { kTexture, parallel }, sitter.features);
+    smooth(data.hierarchy, source, { kUnimportant, parallel }, sitter.base);
+    sitter.picture.width = data.hierarchy.mesh_width();
+    sitter.picture.height = data.hierarchy.mesh_height();
+    sitter.picture.lightness = sitter.lightness.data();
+    sitter.picture.features = view_of(data, sitter.features);
+    sitter.picture.base = view_of(data, sitter.base);
+    return true;
+}
+
+/// A sheet of a name such as a4, or of WxH millimetres.
+bool parse_paper(const std::string& text, Paper& paper, std::string& error)
+{
+    const std::string name = OIIO::Strutil::lower(text);
+    if (name.size() == 2 && name[0] == 'a' && name[1] >= '0' && name[1] <= '6') {
+        // ISO 216: each size is half of the one before, rounded down to millimetres.
+        int width = 1189, height = 841;
+        for (int size = name[1] - '0'; size > 0; --size) {
+            const int half = width / 2;
+            width = height;
+            height = half;
+        }
+        paper = { double(width), double(height) };
+        return true;
+    }
+    const std::vector<std::string> sides = OIIO::Strutil::splits(name, "x");
+    if (sides.size() == 2 && OIIO::Strutil::string_is_float(sides[0]) && OIIO::Strutil::string_is_float(sides[1])) {
+        paper = { double(OIIO::Strutil::stof(sides[0])), double(OIIO::Strutil::stof(sides[1])) };
+        if (paper.width >= 1.0 && paper.height >= 1.0 && paper.width <= 1e5 && paper.height <= 1e5)
+            return true;
+    }
+    error = "paper=\"" + text + "\": expected a0 to a6, or two sides of 1 to 100000 mm, such as 300x200";
+    return false;
+}
+
+/// The width of the pen in pixels.
+bool find_pen(const InkOptions& options, const ProgressiveImage::Data& data, Paper& paper, float& pen,
+              std::string& error)
+{
+    Drawing sheet;
+    sheet.width = data.hierarchy.mesh_width();
+    sheet.height = data.hierarchy.mesh_height();
+    const double scale = millimetres_per_pixel(sheet, paper);
+    pen = options.width > 0.0f ? options.width : std::max(kFinestPen, float(double(options.pen) / scale));
+    if (double(pen) * kMostPens >= double(std::max(sheet.width, sheet.height)))
+        return true;
+    error = format("{}: expected a pen of at least 1/{} of the picture's longer side",
+                   options.width > 0.0f ? "width" : "pen", int(kMostPens));
+    return false;
+}
+
+InkStyle style_of(const std::string& name)
+{
+    return name == "stipple" ? InkStyle::stipple : name == "contour" ? InkStyle::contour : InkStyle::hatch;
+}
+
+bool write_drawing(const InkOptions& options, const Drawing& drawing, const Paper& paper, float pen, std::string& error)
+{
+    if (options.strokes.empty())
+        return true;
+    const std::string text = !OIIO::Strutil::iends_with(options.strokes, ".svg") ? drawing_to_json(drawing)
+        : options.sort                                                           ? drawing_to_plot(drawing, paper, pen)
+                                                                                 : drawing_to_svg(drawing, paper);
+    std::string why;
+    if (write_whole_file(options.strokes, text, why))
+        return true;
+    error = "strokes: cannot write \"" + options.strokes + "\": " + why;
+    return false;
+}
+
+/// The value of every ink in a channel of the result.
+std::vector<std::vector<float>> ink_values(const ProgressiveImage::Data& data, const Drawing& drawing)
+{
+    std::vector<std::vector<float>> values(std::size_t(data.colour.count()));
+    for (std::size_t c = 0; c < values.size(); ++c)
+        for (const std::array<float, 3>& ink : drawing.inks) {
+            const float v = ink[std::min<std::size_t>(c, 2)];
+            values[c].push_back(data.colour.encoded() ? v : float(srgb_decoded(double(v))));
+        }
+    return values;
+}
+
+/// White paper with lines.
+bool draw(ProgressiveImage::Data& data, const InkOptions& options, const ParallelFor& parallel, Channels& paper,
+          std::string& error)
+{
+    Paper sheet;
     PenOptions settings;
-    settings.width = options.width;
+    Sitter sitter;
+    if (!check_strokes_name(options.strokes, error) || !parse_paper(options.paper, sheet, error)
+        || !find_pen(options, data, sheet, settings.width, error) || !seat(data, options, parallel, sitter, error))
+        return false;
     settings.length = options.length;
     settings.density = options.density;
     settings.outline = options.outline;
     settings.cross = options.cross;
     settings.seed = std::uint32_t(options.seed);
-    Strokes lines;
-    const Status status = plan_ink(data.hierarchy, darkness(data, eye).data(), field, settings, lines);
-    error = status.error();
-    if (!status || !write_strokes(options.strokes, lines, {}, 1.0f, "#ffffff", error))
+    settings.style = style_of(options.style);
+    settings.spacing = options.spacing;
+    settings.detail = options.detail;
+    settings.parallel = parallel;
+    Drawing drawing;
+    draw_ink(sitter.picture, settings, drawing);
+    if (options.sort)
+        sort_lines(drawing);
+    if (!write_drawing(options, drawing, sheet, settings.width, error))
         return false;
-    paper.assign(data.hierarchy.mesh_pixels(), 1.0f);
-    Canvas canvas { field.width(), field.height(), { paper.data() }, nullptr };
-    StrokePaintOptions painting;
-    painting.parallel = parallel;
-    const std::vector<std::vector<float>> black(1, std::vector<float>(lines.strokes.size(), 0.0f));
-    paint_strokes(lines, black, Brush::named("round"), painting, canvas);
-    crop_to_picture(data.hierarchy, paper);
+    Canvas canvas { drawing.width, drawing.height, {}, nullptr };
+    paper.assign(std::size_t(data.colour.count()), std::vector<float>(data.hierarchy.mesh_pixels(), 1.0f));
+    for (std::vector<float>& channel : paper)
+        canvas.channels.push_back(channel.data());
+    render_drawing(drawing, ink_values(data, drawing), canvas, parallel);
+    for (std::vector<float>& channel : paper)
+        crop_to_picture(data.hierarchy, channel);
     return true;
 }
 
@@ -55,13 +249,12 @@ bool on_hierarchy::ink(ImageBuf& dst, const ProgressiveImage& src, const InkOpti
             return false;
         ProgressiveImage::Data& data = *src.data();
         const ParallelFor parallel = pool_loop(nthreads);
-        std::vector<float> paper;
+        Channels results;
         std::string error;
-        if (!draw(data, options, parallel, paper, error)) {
+        if (!draw(data, options, parallel, results, error)) {
             set_error(dst, error);
             return false;
         }
-        std::vector<std::vector<float>> results(std::size_t(data.colour.count()), paper);
         associate(data, results);
         write_channels(dst, data, roi, parallel, results, Specials::replaced);
         return true;

@@ -267,6 +267,7 @@ TEST(ink, is_black_on_white_and_exports_lines)
 {
     const ImageBuf src = picture(120, 90);
     pimg::InkOptions options;
+    options.width = 1.5f;
     options.strokes = "lines.svg";
     const ImageBuf result = iba::ink(src, options);
     ASSERT_FALSE(result.has_error()) << result.geterror();
@@ -283,6 +284,77 @@ TEST(ink, is_black_on_white_and_exports_lines)
     std::string first;
     std::getline(svg, first);
     EXPECT_EQ(first.substr(0, 4), "<svg");
+}
+
+TEST(ink, draws_in_the_inks_asked_for)
+{
+    ImageBuf src(OIIO::ImageSpec(160, 120, 3, OIIO::TypeDesc::FLOAT));
+    for (OIIO::ImageBuf::Iterator<float> p(src); !p.done(); ++p) {
+        const bool left = p.x() < 80;
+        p[0] = left ? 0.8f : 0.1f;
+        p[1] = 0.3f;
+        p[2] = left ? 0.1f : 0.7f;
+    }
+    src.specmod().attribute("oiio:ColorSpace", "sRGB");
+    pimg::InkOptions options;
+    options.width = 1.5f;
+    options.outline = 0;
+    const auto differs = [&](int x0, int x1) {  // mean of red minus blue
+        const ImageBuf result = iba::ink(src, options, {}, 1);
+        EXPECT_FALSE(result.has_error()) << result.geterror();
+        const std::vector<float> red = samples(result, 0), blue = samples(result, 2);
+        double sum = 0;
+        for (int y = 0; y < 120; ++y)
+            for (int x = x0; x < x1; ++x)
+                sum += double(red[std::size_t(y * 160 + x)] - blue[std::size_t(y * 160 + x)]);
+        return sum / double(120 * (x1 - x0));
+    };
+    EXPECT_EQ(differs(0, 160), 0.0);
+    options.colours = 3;
+    EXPECT_GT(differs(0, 70), 0.2);
+    EXPECT_LT(differs(90, 160), -0.2);
+}
+
+TEST(ink, sizes_follow_the_paper)
+{
+    const ImageBuf src = picture(120, 90);
+    pimg::InkOptions options;
+    options.paper = "240x180";
+    options.pen = 3;
+    options.strokes = "sheet.svg";
+    const ImageBuf a = iba::ink(src, options);
+    std::ifstream svg("sheet.svg");
+    std::string first;
+    std::getline(svg, first);
+    EXPECT_NE(first.find("width=\"240mm\" height=\"180mm\""), std::string::npos) << first;
+    options.strokes.clear();
+    options.width = 1.5f;  // pixels: 240 mm are 120 of them
+    EXPECT_EQ(samples(a, 0), samples(iba::ink(src, options), 0));
+    options.sort = true;  // another order of the same lines
+    const std::vector<float> one = samples(a, 0), other = samples(iba::ink(src, options), 0);
+    for (std::size_t i = 0; i < one.size(); ++i)
+        ASSERT_NEAR(one[i], other[i], 1e-5f);
+}
+
+TEST(ink, says_what_is_wrong)
+{
+    const ImageBuf src = picture(60, 40);
+    const auto says = [&](const char* key, const char* value, const char* expected) {
+        pimg::InkOptions options;
+        std::string error;
+        if (pimg::set_option(options, key, value, error)) {
+            const ImageBuf result = iba::ink(src, options);
+            EXPECT_TRUE(result.has_error()) << key;
+            error = result.geterror();
+        }
+        EXPECT_NE(error.find(expected), std::string::npos) << error;
+    };
+    for (const char* paper : { "", "a7", "letter", "20x", "0x5", "nanxnan", "5x5x5" })
+        says("paper", paper, "expected a0 to a6, or two sides");
+    says("pen", "0.009", "expected a number, 0.01 to 100");
+    says("width", "0.01", "width: expected a pen of at least");
+    says("style", "charcoal", "hatch, contour, stipple");
+    says("strokes", "lines.png", "expected FILE.svg or FILE.json");
 }
 
 }  // namespace
