@@ -22,8 +22,8 @@ using OIIO::ROI;
 using OIIO::stride_t;
 namespace Filesystem = OIIO::Filesystem;
 
-constexpr int kMipTile = 64;
-constexpr int kThumbnailSide = 256;
+constexpr int kMipTile = 64;         ///< as in most tiled files, and as maketx writes them
+constexpr int kThumbnailSide = 256;  ///< a large thumbnail of the freedesktop.org specification
 
 }  // namespace
 

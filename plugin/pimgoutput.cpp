@@ -80,7 +80,7 @@ int PimgOutput::supports(OIIO::string_view feature) const
 
 bool PimgOutput::check(const ImageSpec& spec)
 {
-    constexpr int kSide = 1 << 20, kFar = 1 << 30;
+    constexpr int kSide = 1 << 20, kFar = 1 << 30;  // docs/format.md, section 2
     const auto far_away = [](int v) {
         return v < -kFar || v > kFar;
     };

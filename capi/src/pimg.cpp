@@ -23,7 +23,7 @@ using OIIO::ImageSpec;
 using OIIO::stride_t;
 using pimg::format;
 
-constexpr int kLargestSide = 1 << 20;
+constexpr int kLargestSide = 1 << 20;  ///< of a .pimg file, too
 
 void report(const char* message, char* error, std::size_t error_size)
 {

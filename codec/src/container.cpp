@@ -60,6 +60,7 @@ Window get_window(ByteReader& in)
     return w;
 }
 
+/// docs/format.md, section 2.
 bool is_window_ok(const Window& w)
 {
     constexpr std::int32_t kFar = 1 << 30;

@@ -82,7 +82,7 @@ void PictureView::draw_overlays(const Workbench& bench, double pixel_scale)
 
 void PictureView::act(Workbench& bench, Action action) const
 {
-    constexpr double kStep = 1.25;
+    constexpr double kStep = 1.25;  // as a notch of the wheel
     const double x = m_area.x + m_area.width / 2.0, y = m_area.y + m_area.height / 2.0;
     if (action == Action::fit)
         bench.look.zoom = 0.0f;

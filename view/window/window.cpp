@@ -269,7 +269,7 @@ bool Window::write_screenshot(std::string& error) const
 
 bool Window::measure()
 {
-    constexpr double kSeconds = 5.0;
+    constexpr double kSeconds = 5.0;  // hundreds of frames
     const double now = glfwGetTime();
     for (StackItem& item : m_bench->stack.items)
         for (const pimg::OptionInfo& option : item.filter->options()) {

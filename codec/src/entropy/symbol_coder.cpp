@@ -118,7 +118,7 @@ std::array<std::uint32_t, kTokens> frequencies(const Histogram& h)
     return f;
 }
 
-constexpr std::uint32_t kLengthModels = kProbabilityBits + 2;
+constexpr std::uint32_t kLengthModels = kProbabilityBits + 2;  ///< one for each length of a frequency before, and for 0
 
 Bytes write_tables(const std::vector<Context>& contexts, const std::vector<std::array<std::uint32_t, kTokens>>& tables)
 {

@@ -12,6 +12,7 @@
 
 namespace pimg {
 
+// Sizes of the tables: docs/format.md, section 3.2.
 constexpr int kProbabilityBits = 11;
 constexpr std::uint32_t kProbabilities = 1u << kProbabilityBits;  ///< frequencies of a context add up to this
 constexpr std::uint32_t kStateLow = 1u << 16;                     ///< states stay in [2^16, 2^32)

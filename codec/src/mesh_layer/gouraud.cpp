@@ -150,7 +150,7 @@ struct Plane10 {
 
     Plane10(const Point (&p)[3], std::int64_t a, std::int64_t b, std::int64_t c)
     {
-        constexpr std::int64_t kSteepest = std::int64_t(1) << 34;
+        constexpr std::int64_t kSteepest = std::int64_t(1) << 34;  // times any position it stays below 2^63
         const std::int64_t area = doubled_area(p[0], p[1], p[2]);
         const std::int64_t x1 = p[1].x - p[0].x, y1 = p[1].y - p[0].y, x2 = p[2].x - p[0].x, y2 = p[2].y - p[0].y;
         const std::int64_t scale = 1024 * kSubpixels;

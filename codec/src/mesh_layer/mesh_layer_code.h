@@ -60,7 +60,7 @@ bool code_geometry(Io& io, MeshModels& models, const MeshLayerHead& head, const 
     std::int32_t dx = (split.u.x >> shift) - (split.t.x >> shift), dy = (split.u.y >> shift) - (split.t.y >> shift);
     dx = signed_number(io, models.edge[border][2 * size], dx);
     dy = signed_number(io, models.edge[border][2 * size + 1], dy);
-    constexpr std::int32_t kFar = 1 << 27;
+    constexpr std::int32_t kFar = 1 << 27;  // beyond any picture, and sums stay in 32 bits
     if (std::abs(dx / 2) >= kFar || std::abs(dy / 2) >= kFar)
         return false;
     const std::size_t length = std::size_t(bit_length(std::uint32_t(std::max(std::abs(dx), std::abs(dy)))));

@@ -75,7 +75,7 @@ Box box_of_circle(Point a, Point b, Point c)
         low[0] = std::min(low[0], ex), high[0] = std::max(high[0], ex);
         low[1] = std::min(low[1], ey), high[1] = std::max(high[1], ey);
     }
-    constexpr double kFar = 1 << 22;
+    constexpr double kFar = 1 << 22;  // beyond any picture; circles through near-by vertices may be of any size
     const double more = 1.0 + 1e-9 * r;
     const auto down = [&](double v) {
         return int(std::floor(std::max(v - more, -kFar)));

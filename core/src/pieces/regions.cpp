@@ -16,7 +16,7 @@ namespace pimg {
 
 namespace {
 
-constexpr std::size_t kMaxChannels = 64;
+constexpr std::size_t kMaxChannels = 64;  ///< far above what tells regions apart; a limit for untrusted callers
 
 /// Gaussian of one channel, edges repeated. In place, through one row or column at a time.
 void smooth(std::vector<float>& samples, std::size_t width, std::size_t height, float sigma)

@@ -380,7 +380,7 @@ void flip(InitialMesh& mesh, Index e)
 int in_circle(Point a, Point b, Point c, Point d)
 {
     const std::int32_t x[3] = { a.x - d.x, b.x - d.x, c.x - d.x }, y[3] = { a.y - d.y, b.y - d.y, c.y - d.y };
-    constexpr std::int32_t kSmall = 1 << 14;
+    constexpr std::int32_t kSmall = 1 << 14;  // the determinant stays below 2^60
     std::uint32_t largest = 0;
     for (int k = 0; k < 3; ++k)
         largest |= std::uint32_t(std::abs(x[k])) | std::uint32_t(std::abs(y[k]));

@@ -177,7 +177,7 @@ CollapseSequence Simplifier::take_sequence()
 /// One line on what is wrong with a guide; nothing if it can be built from.
 Status check(const Guide& guide)
 {
-    constexpr int kMaxSide = 1 << 20;
+    constexpr int kMaxSide = 1 << 20;  // lattice coordinates fit into 32 bits
     if (guide.width < 1 || guide.height < 1)
         return Status::failure("the picture is empty");
     if (guide.width > kMaxSide || guide.height > kMaxSide

@@ -177,7 +177,7 @@ HWY_INLINE bool keeps_shape(const Star& star, float least, float x, float y)
 /// Whether all corners are so close that areas fit into 32 bits, as they do on all but the coarsest levels.
 HWY_INLINE bool is_near(const Star& star)
 {
-    constexpr float kNear = 256.0f;
+    constexpr float kNear = 256.0f;  // pixels: 2^14 lattice units, whose doubled areas are below 2^31
     const Lanes d;
     auto far = hn::Zero(d);
     for (int j = 0; j < lanes_for(star.degree); j += int(hn::Lanes(d)))

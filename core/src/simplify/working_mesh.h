@@ -44,7 +44,7 @@ struct Tile {
 struct Zone {
     std::int32_t x0, y0, x1, y1;  ///< half open
 };
-constexpr Zone kEverywhere = { 0, 0, 1 << 16, 1 << 16 };
+constexpr Zone kEverywhere = { 0, 0, 1 << 16, 1 << 16 };  ///< 2^20 pixels are 2^16 blocks
 
 /// Fills a ring after its last neighbour. It is neither a vertex nor the ghost.
 constexpr Index kNoVertex = kGhost - 1;

@@ -19,7 +19,7 @@ struct Histogram {
 
 /// How many pixels of each column have each code, as shares of the fullest: `columns` x kRows, the brightest code first.
 struct Waveform {
-    static constexpr int kRows = 64;
+    static constexpr int kRows = 64;  ///< a code in four: finer rows would be thinner than a pixel of the panel
     int columns = 0;
     std::vector<float> shares;
 };

@@ -32,7 +32,7 @@ struct PlainMesh {
 
 class CollapseMetric {
 public:
-    static constexpr int kMaxCandidates = 5;
+    static constexpr int kMaxCandidates = 5;  ///< positions of the merged vertex that a metric proposes
 
     virtual ~CollapseMetric() = default;
 
