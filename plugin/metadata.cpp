@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstring>
 #include <unordered_map>
+#include <utility>
 
 #include <OpenImageIO/fmath.h>
 #include <OpenImageIO/strutil.h>
@@ -225,57 +226,35 @@ int channel_number(const Attribute& attribute, int channels)
     return channel < channels ? std::max(channel, -1) : -1;
 }
 
-}  // namespace
-
-TypeDesc stored_type(const TypeDesc& type)
-{
-    switch (type.basetype) {
-    case TypeDesc::UINT8:
-    case TypeDesc::UINT16:
-    case TypeDesc::UINT32:
-    case TypeDesc::HALF:
-        return TypeDesc::BASETYPE(type.basetype);
-    default:
-        return TypeDesc::FLOAT;
-    }
-}
-
-TypeDesc type_desc(SampleType type)
-{
-    switch (type) {
-    case SampleType::uint8:
-        return TypeDesc::UINT8;
-    case SampleType::uint16:
-        return TypeDesc::UINT16;
-    case SampleType::uint32:
-        return TypeDesc::UINT32;
-    case SampleType::half:
-        return TypeDesc::HALF;
-    case SampleType::float32:
-        break;
-    }
-    return TypeDesc::FLOAT;
-}
-
-namespace {
+/// The pixel types that files have; all others are stored as float.
+constexpr std::pair<SampleType, TypeDesc::BASETYPE> kSampleTypes[] = {
+    { SampleType::uint8, TypeDesc::UINT8 },   { SampleType::uint16, TypeDesc::UINT16 },
+    { SampleType::uint32, TypeDesc::UINT32 }, { SampleType::half, TypeDesc::HALF },
+    { SampleType::float32, TypeDesc::FLOAT },
+};
 
 SampleType sample_type(const TypeDesc& type)
 {
-    switch (type.basetype) {
-    case TypeDesc::UINT8:
-        return SampleType::uint8;
-    case TypeDesc::UINT16:
-        return SampleType::uint16;
-    case TypeDesc::UINT32:
-        return SampleType::uint32;
-    case TypeDesc::HALF:
-        return SampleType::half;
-    default:
-        return SampleType::float32;
-    }
+    for (const auto& [sample, base] : kSampleTypes)
+        if (base == type.basetype)
+            return sample;
+    return SampleType::float32;
 }
 
 }  // namespace
+
+TypeDesc type_desc(SampleType type)
+{
+    for (const auto& [sample, base] : kSampleTypes)
+        if (sample == type)
+            return base;
+    return TypeDesc::FLOAT;
+}
+
+TypeDesc stored_type(const TypeDesc& type)
+{
+    return type_desc(sample_type(type));
+}
 
 PictureDesc to_desc(const ImageSpec& spec)
 {

@@ -41,21 +41,11 @@ struct Grid {
     const T* row(int y) const { return v.data() + std::size_t(std::clamp(y, 0, height - 1)) * std::size_t(width); }
 };
 
-void for_rows(const ParallelFor& parallel, int rows, const std::function<void(int)>& body)
-{
-    constexpr int kRows = 32;
-    run(parallel, std::size_t(rows + kRows - 1) / kRows, [&](std::size_t block) {
-        const int first = int(block) * kRows, last = std::min(rows, first + kRows);
-        for (int y = first; y < last; ++y)
-            body(y);
-    });
-}
-
 /// Mean of 2 x 2 pixels.
 Grid<float> halve(const float* samples, int width, int height, const ParallelFor& parallel)
 {
     Grid<float> half((width + 1) / 2, (height + 1) / 2);
-    for_rows(parallel, half.height, [&](int y) {
+    for_rows(parallel, 0, half.height, [&](int y) {
         const float* a = samples + std::size_t(2 * y) * std::size_t(width);
         const float* b = 2 * y + 1 < height ? a + width : a;
         float* out = half.row(y);
@@ -75,7 +65,7 @@ Grid<T> blur(const Grid<T>& in, const ParallelFor& parallel)
     const auto weigh = [](T a, T b, T c, T d, T e) {
         return 0.0625f * (a + e) + (0.25f * (b + d) + 0.375f * c);
     };
-    for_rows(parallel, in.height, [&](int y) {
+    for_rows(parallel, 0, in.height, [&](int y) {
         const T* r = in.row(y);
         T* o = across.row(y);
         const int last = in.width - 1;
@@ -83,7 +73,7 @@ Grid<T> blur(const Grid<T>& in, const ParallelFor& parallel)
             o[x] = weigh(r[std::max(x - 2, 0)], r[std::max(x - 1, 0)], r[x], r[std::min(x + 1, last)],
                          r[std::min(x + 2, last)]);
     });
-    for_rows(parallel, in.height, [&](int y) {
+    for_rows(parallel, 0, in.height, [&](int y) {
         const T *a = across.row(y - 2), *b = across.row(y - 1), *c = across.row(y), *d = across.row(y + 1),
                 *e = across.row(y + 2);
         T* o = out.row(y);
@@ -112,7 +102,7 @@ Grid<Tensor> tensors(const ChannelsView& guides, const ParallelFor& parallel)
     Grid<Tensor> sum((guides.width + 1) / 2, (guides.height + 1) / 2);
     for (const float* samples : guides.channels) {
         const Grid<float> smooth = blur(halve(samples, guides.width, guides.height, parallel), parallel);
-        for_rows(parallel, sum.height, [&](int y) {
+        for_rows(parallel, 0, sum.height, [&](int y) {
             const float *above = smooth.row(y - 1), *here = smooth.row(y), *below = smooth.row(y + 1);
             Tensor* out = sum.row(y);
             for (int x = 0; x < sum.width; ++x) {
@@ -162,7 +152,7 @@ DirectionField::DirectionField(const ChannelsView& guides, const ParallelFor& pa
         Grid<Vec2> fine(level.width, level.height);
         // The farther away an edge, the weaker it may be and still be all there is.
         const float floor = noise * noise / float(1u << std::min<std::size_t>(2 * k, 30));
-        for_rows(parallel, level.height, [&](int y) {
+        for_rows(parallel, 0, level.height, [&](int y) {
             for (int x = 0; x < level.width; ++x) {
                 const Tensor t = level.row(y)[x];
                 const Vec2 own = edge_direction(t), far = from_coarser(coarse, x, y);

@@ -9,6 +9,7 @@ import unittest
 
 import numpy as np
 import OpenImageIO as oiio
+from pictures import opened, read  # noqa: F401, for the tests
 
 PLUGIN = os.environ["PIMG_PLUGIN"]
 
@@ -41,22 +42,6 @@ def write(name, pixels, kind, attributes=None, origin=None, full=None):
     out = oiio.ImageOutput.create(name)
     if not out.open(name, spec) or not out.write_image(pixels) or not out.close():
         raise RuntimeError(out.geterror())
-
-
-def opened(name, config=None):
-    file = oiio.ImageInput.open(name, config) if config else oiio.ImageInput.open(name)
-    if file is None:
-        raise RuntimeError(oiio.geterror())
-    return file
-
-
-def read(name, kind=oiio.FLOAT, config=None):
-    """The pixels of a file; not by ImageBuf, whose cache would go on showing what was in the file before."""
-    file = opened(name, config)
-    pixels = file.read_image(0, 0, 0, file.spec().nchannels, kind)
-    if pixels is None:
-        raise RuntimeError(file.geterror())
-    return pixels.reshape(file.spec().height, file.spec().width, -1)
 
 
 def bytes_of(name):

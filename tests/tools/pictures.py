@@ -53,9 +53,9 @@ def write(name, pixels, kind, attributes=None, names=None, origin=None, full=Non
         raise RuntimeError(buffer.geterror())
 
 
-def opened(name):
+def opened(name, config=None):
     # Not by ImageBuf, whose cache would go on showing what was in the file before.
-    file = oiio.ImageInput.open(name)
+    file = oiio.ImageInput.open(name, config) if config else oiio.ImageInput.open(name)
     if file is None:
         raise RuntimeError(oiio.geterror())
     return file
@@ -65,9 +65,9 @@ def spec_of(name):
     return opened(name).spec()
 
 
-def read(name, kind=oiio.FLOAT):
-    """The pixels of a file as float, or as another type."""
-    file = opened(name)
+def read(name, kind=oiio.FLOAT, config=None):
+    """The pixels of a file as float, or as another type; `config` is an ImageSpec of hints for the reader."""
+    file = opened(name, config)
     pixels = file.read_image(0, 0, 0, file.spec().nchannels, kind)
     if pixels is None:
         raise RuntimeError(file.geterror())

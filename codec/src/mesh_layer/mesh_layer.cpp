@@ -82,6 +82,19 @@ bool is_split_ok(const Mesh& mesh, const CanonicalRing& ring, const LayerSplit& 
         && is_fan_ok(ring, split.vl, left_to_right, split.u, split.t, extent);
 }
 
+bool apply_split(Mesh& mesh, const CanonicalRing& ring, const LayerSplit& split, std::uint32_t batch,
+                 std::vector<std::uint32_t>& touched)
+{
+    if (!mesh.split(split.s, ring.vertex[split.vl], ring.vertex[split.vr], split.t, split.u))
+        return false;
+    for (int k = 0; k < ring.degree; ++k)
+        if (ring.vertex[k] != kGhost)
+            touched[ring.vertex[k]] = batch;
+    touched[split.s] = batch;
+    touched.push_back(batch);
+    return true;
+}
+
 IntegerStencil integer_stencil(Point p, Point s, const CanonicalRing& ring, int start)
 {
     const StarFace face =
@@ -183,14 +196,7 @@ bool MeshLayerReader::read_split(BinaryReader& in, Index s)
     if (!code_geometry(io, m_models, m_head, m_layer.mesh, ring, split) || !is_split_ok(m_layer.mesh, ring, split))
         return false;
     code_values(io, m_models, m_head, m_layer, ring, split, nullptr);
-    if (in.overrun() || !m_layer.mesh.split(s, ring.vertex[split.vl], ring.vertex[split.vr], split.t, split.u))
-        return false;
-    for (int k = 0; k < ring.degree; ++k)
-        if (ring.vertex[k] != kGhost)
-            m_touched[ring.vertex[k]] = m_batch;
-    m_touched[s] = m_batch;
-    m_touched.push_back(m_batch);
-    return true;
+    return !in.overrun() && apply_split(m_layer.mesh, ring, split, m_batch, m_touched);
 }
 
 Status MeshLayerReader::read_batches(const std::uint8_t* data, std::size_t size)

@@ -58,6 +58,10 @@ struct CanonicalRing {
 /// Whether splitting s so leaves only positive triangles and the picture's sides as they are.
 bool is_split_ok(const Mesh& mesh, const CanonicalRing& ring, const LayerSplit& split);
 
+/// Splits the vertex, and notes the batch for the vertices of the split and those around it. False if the mesh forbids it.
+bool apply_split(Mesh& mesh, const CanonicalRing& ring, const LayerSplit& split, std::uint32_t batch,
+                 std::vector<std::uint32_t>& touched);
+
 /// Prediction of one channel at a point of the star of s: weights in 1/65536.
 struct IntegerStencil {
     Index a, b;

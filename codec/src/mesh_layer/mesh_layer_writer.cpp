@@ -278,13 +278,8 @@ bool BatchWriter::write_batch(BinaryWriter& stream, const GeometryPlan& plan, co
             return false;
         code_values(io, m_models, m_head, m_layer, ring, fields,
                     &targets[order.splits[next] * 2 * m_layer.values.size()]);
-        if (!m_layer.mesh.split(v, ring.vertex[fields.vl], ring.vertex[fields.vr], fields.t, fields.u))
+        if (!apply_split(m_layer.mesh, ring, fields, m_batch, m_touched))
             return false;
-        for (int k = 0; k < ring.degree; ++k)
-            if (ring.vertex[k] != kGhost)
-                m_touched[ring.vertex[k]] = m_batch;
-        m_touched[v] = m_batch;
-        m_touched.push_back(m_batch);
         ++next;
     }
     return next == end;

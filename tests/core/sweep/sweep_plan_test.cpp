@@ -98,12 +98,18 @@ TEST(SweepPlan, EndsInOneStageIfThereAreTooMany)
     expect_same(h, bands, "chain");
 }
 
-TEST(SweepPlan, CallsEverySplitOnce)
+Hierarchy hierarchy_of_scene()
 {
     const test::Picture p = test::scene(333, 258);
     Hierarchy h;
     std::vector<Bands> bands;
-    ASSERT_TRUE(simplify({ p.width, p.height, { { p.samples.data() } } }, {}, h, bands).ok());
+    EXPECT_TRUE(simplify({ p.width, p.height, { { p.samples.data() } } }, {}, h, bands).ok());
+    return h;
+}
+
+TEST(SweepPlan, CallsEverySplitOnce)
+{
+    const Hierarchy h = hierarchy_of_scene();
     const SweepPlan plan(h);
     ASSERT_EQ(plan.levels(), h.levels());
     std::vector<int> calls(plan.levels());
@@ -121,10 +127,7 @@ TEST(SweepPlan, CallsEverySplitOnce)
 
 TEST(SweepPlan, EndsWhenABodyThrows)
 {
-    const test::Picture p = test::scene(333, 258);
-    Hierarchy h;
-    std::vector<Bands> bands;
-    ASSERT_TRUE(simplify({ p.width, p.height, { { p.samples.data() } } }, {}, h, bands).ok());
+    const Hierarchy h = hierarchy_of_scene();
     const SweepPlan plan(h);
     // The first range is waited for by all others, the last by none.
     for (Level thrower : { Level(0), plan.levels() / 2, plan.levels() - 1 })

@@ -13,16 +13,20 @@ namespace {
 using pimg::format;
 using pimg::OptionTexts;
 
+/// Between two marks, with `inside` for each mark of the text itself.
+std::string quoted(const std::string& text, char mark, const char* inside)
+{
+    std::string result(1, mark);
+    for (const char letter : text)
+        result += letter == mark ? std::string(inside) : std::string(1, letter);
+    return result + mark;
+}
+
 /// By the rules of option_text.h: a value that holds a separator, or begins with a mark, is put between marks.
 std::string option_value(const std::string& value)
 {
     const bool plain = value.find_first_of(":&") == value.npos && value.find_first_of("\"'") != 0;
-    if (plain)
-        return value;
-    std::string quoted = "\"";
-    for (const char letter : value)
-        quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
-    return quoted + "\"";
+    return plain ? value : quoted(value, '"', "\"\"");
 }
 
 std::string argument(const std::string& command, const OptionTexts& texts)
@@ -38,12 +42,7 @@ std::string shell_word(const std::string& word)
     const bool plain = !word.empty()
         && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:=,+-@%^")
             == word.npos;
-    if (plain)
-        return word;
-    std::string quoted = "'";
-    for (const char letter : word)
-        quoted += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
-    return quoted + "'";
+    return plain ? word : quoted(word, '\'', "'\\''");
 }
 
 const pimg::Filter* filter_of(const std::string& command)
