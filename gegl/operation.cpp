@@ -79,11 +79,11 @@ void find_slider(const OptionInfo& option, double preset, double& low, double& h
         high = std::max({ 1.0, 10.0 * preset, 10.0 * std::max(low, 0.0) });
 }
 
-/// What stands for "not set" is one below the range, as in the options structs.
+/// For options that need not be set, -1 stands for "not set", as in the options structs; the range includes it.
 GParamSpec* property(const OptionInfo& option, GParamFlags more)
 {
-    const std::string name = dashed(option.key),
-                      help = option.help + (option.unit.empty() ? "" : " (" + option.unit + ")");
+    const std::string name = dashed(option.key), label = pimg::label_of(option.key),
+                      help = pimg::label_of(option.help) + (option.unit.empty() ? "" : " (" + option.unit + ")");
     const auto flags = GParamFlags(G_PARAM_READWRITE | int(more) | GEGL_PARAM_PAD_INPUT);
     const bool unset = option.default_value.empty();
     const double preset = unset ? -1.0 : OIIO::Strutil::stod(option.default_value);
@@ -91,15 +91,15 @@ GParamSpec* property(const OptionInfo& option, GParamFlags more)
     double low = 0.0, high = 1.0;
     find_slider(option, preset, low, high);
     if (option.type == "flag")
-        return g_param_spec_boolean(name.c_str(), name.c_str(), help.c_str(), option.default_value == "1", flags);
+        return g_param_spec_boolean(name.c_str(), label.c_str(), help.c_str(), option.default_value == "1", flags);
     if (option.type == "int")
-        return gegl_param_spec_int(name.c_str(), name.c_str(), help.c_str(), int(least), int(option.max), int(preset),
+        return gegl_param_spec_int(name.c_str(), label.c_str(), help.c_str(), int(least), int(option.max), int(preset),
                                    int(std::min(low, least)), int(high), 1.0, flags);
     if (option.type == "float")
-        return gegl_param_spec_double(name.c_str(), name.c_str(), help.c_str(), least, option.max, preset,
+        return gegl_param_spec_double(name.c_str(), label.c_str(), help.c_str(), least, option.max, preset,
                                       std::min(low, least), high, 1.0, flags);
     const std::string words = option.choices.empty() ? help : help + ": " + option.choices;
-    return gegl_param_spec_string(name.c_str(), name.c_str(), words.c_str(), FALSE, TRUE, option.default_value.c_str(),
+    return gegl_param_spec_string(name.c_str(), label.c_str(), words.c_str(), FALSE, TRUE, option.default_value.c_str(),
                                   flags);
 }
 
@@ -176,7 +176,7 @@ bool is_picture(const GeglRectangle& box)
     return box.width > 0 && box.height > 0 && !gegl_rectangle_is_infinite_plane(&box);
 }
 
-/// All of the picture; of what is none, which is passed on, only what is asked for.
+/// All of the picture, which the hierarchy is built of. An input that is none is passed on: only what is asked for.
 GeglRectangle needed(GeglOperation* operation, const GeglRectangle* roi)
 {
     const GeglRectangle box = whole_input(operation);
@@ -198,7 +198,7 @@ GeglRectangle get_invalidated_by_change(GeglOperation* operation, const gchar*, 
     return whole_input(operation);
 }
 
-/// The primaries of the format, as OpenEXR says them; those of sRGB go without saying.
+/// Names the primaries of the format in OpenEXR's attribute. Without it they are those of sRGB.
 void declare_primaries(OIIO::ImageSpec& spec, const Babl* format)
 {
     const Babl* space = babl_format_get_space(format);
@@ -279,13 +279,14 @@ gboolean process(GeglOperation* operation, GeglBuffer* input, GeglBuffer* output
     return FALSE;
 }
 
-/// process(), or for an input without end or without pixels that input itself.
+/// Calls process(). An input without end or without pixels is passed on as it is.
 gboolean process_or_pass(GeglOperation* operation, GeglOperationContext* context, const gchar* property,
                          const GeglRectangle* roi, gint level)
 {
     if (is_picture(whole_input(operation)))
         return GEGL_OPERATION_CLASS(parent_class)->process(operation, context, property, roi, level);
-    g_message("%s: passes its input on, which has no size: expected a picture, such as gegl:crop before it makes",
+    g_message("%s: the input has no pixels or no end, and is passed on unchanged; gegl:crop before this operation "
+              "makes a picture of it",
               GEGL_OPERATION_GET_CLASS(operation)->name);
     GObject* input = gegl_operation_context_get_object(context, "input");
     if (input != nullptr)
@@ -336,9 +337,8 @@ void init_class(gpointer klass, gpointer filter)
     GEGL_OPERATION_FILTER_CLASS(klass)->process = process;
     // No licence: GEGL hides operations that state one it does not list.
     const std::string name = "pimg:" + dashed(self->filter->name);
-    std::string summary = self->filter->summary;
-    summary[0] = g_ascii_toupper(summary[0]);
-    gegl_operation_class_set_keys(operation, "name", name.c_str(), "title", name.c_str(), "categories", "pimg",
+    const std::string title = pimg::title_of(*self->filter), summary = pimg::label_of(self->filter->summary);
+    gegl_operation_class_set_keys(operation, "name", name.c_str(), "title", title.c_str(), "categories", "pimg",
                                   "description", summary.c_str(), nullptr);
 }
 

@@ -2,7 +2,6 @@
 #include "describe.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include <pimg/version.h>
@@ -21,14 +20,6 @@ constexpr char kGroupBuild[] = "group_build";
 constexpr char kGroupShot[] = "group_shot";
 constexpr char kGroupFound[] = "group_found";
 constexpr char kPage[] = "page_controls";
-
-std::string with_capital(std::string text)
-{
-    std::replace(text.begin(), text.end(), '_', ' ');
-    if (!text.empty())
-        text[0] = char(std::toupper(text[0]));
-    return text;
-}
 
 /// Defines the parameters of an effect, one after the other.
 class Definer {
@@ -130,8 +121,8 @@ void define_choice(const Properties& p, const std::vector<std::string>& words, c
 void define_option(Definer& definer, const Parameter& parameter)
 {
     const pimg::OptionInfo& option = parameter.option;
-    const std::string label = with_capital(option.key);
-    std::string hint = with_capital(option.help);
+    const std::string label = pimg::label_of(option.key);
+    std::string hint = pimg::label_of(option.help);
     if (!option.unit.empty())
         hint += " (" + option.unit + ")";
     const bool animates = parameter.owner == Owner::filter;
@@ -190,7 +181,7 @@ void define_shots(Definer& definer, const Effect& effect)
     definer.add(kOfxParamTypePushButton, kAnalyseFrame, "Analyse frame", "Shows below what is found in this frame",
                 false);
     for (const std::string& key : effect.found) {
-        const Properties p = definer.add(kOfxParamTypeDouble, kFoundPrefix + key, with_capital(key),
+        const Properties p = definer.add(kOfxParamTypeDouble, kFoundPrefix + key, pimg::label_of(key),
                                          "Found in the frame last looked at, where that parameter is 0", false);
         p.set(kOfxParamPropDefault, 0.0);
         p.set(kOfxParamPropEnabled, 0);
@@ -246,7 +237,7 @@ OfxStatus describe(const Host& host, const Effect& effect, OfxImageEffectHandle 
     p.set(kOfxPropShortLabel, effect.label);
     p.set(kOfxPropLongLabel, "pimg " + effect.label);
     p.set(kOfxImageEffectPluginPropGrouping, std::string("pimg"));
-    p.set(kOfxPropPluginDescription, with_capital(effect.filter->summary) + ".");
+    p.set(kOfxPropPluginDescription, pimg::label_of(effect.filter->summary) + ".");
     p.set(kOfxPropVersionLabel, std::string(PIMG_VERSION_STRING));
     p.set(kOfxImageEffectPropSupportedContexts, std::string(kOfxImageEffectContextFilter), 0);
     p.set(kOfxImageEffectPropSupportedContexts, std::string(kOfxImageEffectContextGeneral), 1);

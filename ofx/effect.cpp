@@ -2,7 +2,6 @@
 #include "effect.h"
 
 #include <algorithm>
-#include <cctype>
 #include <iterator>
 
 #include <OpenImageIO/strutil.h>
@@ -13,22 +12,6 @@
 namespace pimg_ofx {
 
 namespace {
-
-/// "feature_lowpass" as people write it.
-std::string title(const std::string& name)
-{
-    std::string result;
-    for (std::string word : OIIO::Strutil::splits(name, "_")) {
-        if (word == "hdr")
-            word = "HDR";
-        else if (word == "lowpass")
-            word = "Low-pass";
-        else
-            word[0] = char(std::toupper(word[0]));
-        result += (result.empty() ? "" : " ") + word;
-    }
-    return result;
-}
 
 Parameter parameter(const pimg::OptionInfo& option, Owner owner)
 {
@@ -50,7 +33,7 @@ bool is_offered(const pimg::OptionInfo& option)
 
 Effect effect_of(const pimg::Filter& filter)
 {
-    Effect effect { &filter, std::string("org.pimg.") + filter.name, title(filter.name), {}, {} };
+    Effect effect { &filter, std::string("org.pimg.") + filter.name, pimg::title_of(filter), {}, {} };
     for (const pimg::OptionInfo& option : filter.options())
         if (is_offered(option))
             effect.parameters.push_back(parameter(option, Owner::filter));

@@ -3,6 +3,9 @@
 #include <pimg/filter_table.h>
 
 #include <algorithm>
+#include <cctype>
+
+#include <OpenImageIO/strutil.h>
 
 #include <pimg/imagebufalgo.h>
 
@@ -88,7 +91,7 @@ const std::vector<Filter>& filter_table()
               "shows a coarser mesh as a picture; at most one key chooses the level, none the finest" },
             { "SPLITS", "splits", "" }),
         row<WireframeOptions, iba::wireframe, Out::picture>(
-            { "wireframe", "--wireframe", "draws the edges of the mesh of a level, which is chosen as for --level" }),
+            { "wireframe", "--wireframe", "draws the edges of the mesh of a level, chosen as for the filter level" }),
         row<FeatureLowpassOptions, iba::feature_lowpass, Out::picture>(
             { "feature_lowpass", "--feature-lowpass",
               "removes texture and small features, and keeps the edges of large ones" },
@@ -101,7 +104,7 @@ const std::vector<Filter>& filter_table()
             { "hdr_compress", "--hdr-compress", "fits high dynamic range to a display: linear light, white at 1" }),
         row<DualPiecesOptions, iba::dual_pieces, Out::labels>(
             { "dual_pieces", "--dual-pieces",
-              "finds the pixels that each vertex of a level stands for; the level is chosen as for --level" }),
+              "finds the pixels that each vertex of a level stands for; the level is chosen as for the filter level" }),
         row<SegmentOptions, iba::segment, Out::labels>(
             { "segment", "--segment", "partitions the picture into connected regions of similar colour" },
             { "REGIONS", "regions", "" }),
@@ -112,6 +115,22 @@ const std::vector<Filter>& filter_table()
         row<InkOptions, iba::ink, Out::picture>({ "ink", "--ink", "draws the picture with pen and ink" }),
     };
     return table;
+}
+
+std::string title_of(const Filter& filter)
+{
+    std::string title;
+    for (const std::string& word : OIIO::Strutil::splits(filter.name, "_"))
+        title += (title.empty() ? "" : " ") + (word == "hdr" ? "HDR" : word == "lowpass" ? "Low-pass" : label_of(word));
+    return title;
+}
+
+std::string label_of(std::string text)
+{
+    std::replace(text.begin(), text.end(), '_', ' ');
+    if (!text.empty())
+        text[0] = char(std::toupper(static_cast<unsigned char>(text[0])));
+    return text;
 }
 
 const Filter* find_filter(std::string_view name, std::string& error)

@@ -65,6 +65,12 @@ const std::vector<Filter>& filter_table();
 /// `error` that lists the names.
 const Filter* find_filter(std::string_view name, std::string& error);
 
+/// The name of a filter as menus show it: "HDR Compress" for "hdr_compress".
+std::string title_of(const Filter& filter);
+
+/// A key, a summary or a help text as it stands alone, with a capital letter and without underscores: "Jitter colour".
+std::string label_of(std::string text);
+
 /// Sets options of the struct `T` from pairs of key and value, and checks them. On failure returns false with one line in
 /// `error`.
 template<class T>
