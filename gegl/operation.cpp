@@ -285,8 +285,8 @@ gboolean process_or_pass(GeglOperation* operation, GeglOperationContext* context
 {
     if (is_picture(whole_input(operation)))
         return GEGL_OPERATION_CLASS(parent_class)->process(operation, context, property, roi, level);
-    g_message("%s: the input has no pixels or no end, and is passed on unchanged; gegl:crop before this operation "
-              "makes a picture of it",
+    g_message("%s: the input has no pixels or no end, and is passed on unchanged; gegl:crop before it makes a picture "
+              "of it",
               GEGL_OPERATION_GET_CLASS(operation)->name);
     GObject* input = gegl_operation_context_get_object(context, "input");
     if (input != nullptr)

@@ -88,12 +88,12 @@ class FrontEnds(plugin_files.PluginTest):
             # Of the pixels only that they come: level=1 is the mesh after one split.
             self.assertEqual(read(f"a.pimg?{name}=1").shape[:2], (30, 40), name)
             self.assertEqual(read(f"a.pimg?{name}=on").shape[:2], (30, 40), name)
-        self.fails("iinfo", "a.pimg?sepia=1", says=[f"{name}=" for name in self.names])
+        self.fails("iconvert", "a.pimg?sepia=1", "out.png", says=[f"{name}=" for name in self.names])
 
     def test_ink_through_the_plugin_is_that_of_pimgtool(self):
         self.assertEqual(self.pimgtool("a.pimg", "--ink:width=2", "-d", "half", "-o", "b.exr").returncode, 0)
         self.assertLess(np.abs(read("a.pimg?ink=1&width=2") - read("b.exr")).max(), 1e-3)
-        self.fails("iinfo", "a.pimg?ink=1&strokes=b.svg", says=["strokes", "pimgtool"])
+        self.fails("iconvert", "a.pimg?ink=1&strokes=b.svg", "out.png", says=["strokes", "pimgtool"])
 
     @unittest.skipUnless(os.environ.get("PIMG_PYTHON_MODULE"), "the module was not built")
     def test_python(self):
@@ -148,7 +148,7 @@ class FrontEnds(plugin_files.PluginTest):
             with self.assertRaisesRegex(RuntimeError, QUOTED):
                 read(f"a.pimg?paint=1&{quoted}&seed=2")
             unfinished = f"brush={mark}a"
-            done = self.run_tool("iinfo", f"a.pimg?paint=1&{unfinished}")
+            done = self.run_tool("iconvert", f"a.pimg?paint=1&{unfinished}", "out.png")
             for said in (self.pimgtool("a.pimg", f"--paint:{unfinished}", "-o", "b.exr").stderr,
                          self.c.render(f"paint:{unfinished}"),
                          "".join((done.stdout, done.stderr))):

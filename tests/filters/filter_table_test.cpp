@@ -110,7 +110,7 @@ TEST(FilterTable, OlderSpellingsOfKeysAreUnderstood)
             ++aliases;
             bound(row, { { option.alias, option.default_value } });
         }
-    EXPECT_EQ(aliases, 2);
+    EXPECT_GE(aliases, 2);  // "color" of mosaic, "jitter_color" of paint
 }
 
 TEST(FilterTable, RegionsAndThreadsChangeNothing)

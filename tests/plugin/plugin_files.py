@@ -4,12 +4,15 @@
 import os
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
 import numpy as np
 import OpenImageIO as oiio
-from pictures import opened, read  # noqa: F401, for the tests
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tools"))
+from pictures import opened, read  # noqa: E402, F401
 
 PLUGIN = os.environ["PIMG_PLUGIN"]
 
