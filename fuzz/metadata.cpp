@@ -27,6 +27,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const Attribute &a = kept.attributes[i], &b = twice.attributes[i];
         must(a.name == b.name && a.type == b.type && a.value == b.value);
     }
-    must(once.serialize(OIIO::ImageSpec::SerialText).size() > 0);
+    must(!once.serialize(OIIO::ImageSpec::SerialText).empty());
     return 0;
 }

@@ -342,7 +342,7 @@ void init_class(gpointer klass, gpointer filter)
                                   "description", summary.c_str(), nullptr);
 }
 
-const GeglModuleInfo module_info = { GEGL_MODULE_ABI_VERSION };
+const GeglModuleInfo kModuleInfo = { GEGL_MODULE_ABI_VERSION };
 
 }  // namespace
 
@@ -350,7 +350,7 @@ extern "C" {
 
 G_MODULE_EXPORT const GeglModuleInfo* gegl_module_query(GTypeModule*)
 {
-    return &module_info;
+    return &kModuleInfo;
 }
 
 G_MODULE_EXPORT gboolean gegl_module_register(GTypeModule* module)

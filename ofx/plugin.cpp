@@ -148,34 +148,34 @@ OfxStatus failed(std::size_t index, const void* handle, const char* what)
     return kOfxStatFailed;
 }
 
-template<std::size_t kIndex>
+template<std::size_t Index>
 OfxStatus entry(const char* action, const void* handle, OfxPropertySetHandle in, OfxPropertySetHandle out)
 {
     try {
         auto* effect = static_cast<OfxImageEffectHandle>(const_cast<void*>(handle));
-        return action != nullptr ? on_effect(action, kIndex, effect, in, out) : kOfxStatErrValue;
+        return action != nullptr ? on_effect(action, Index, effect, in, out) : kOfxStatErrValue;
     } catch (const std::bad_alloc&) {
         shared_cache().clear();
         return kOfxStatErrMemory;
     } catch (const std::exception& exception) {
-        return failed(kIndex, handle, exception.what());
+        return failed(Index, handle, exception.what());
     } catch (...) {
-        return failed(kIndex, handle, "unknown exception");
+        return failed(Index, handle, "unknown exception");
     }
 }
 
-template<std::size_t kIndex>
+template<std::size_t Index>
 void set_host(OfxHost* host)
 {
-    host_of(kIndex).connect(host);
+    host_of(Index).connect(host);
 }
 
-template<std::size_t... kIndices>
-std::array<OfxPlugin, sizeof...(kIndices)> make_plugins(std::index_sequence<kIndices...>)
+template<std::size_t... Indices>
+std::array<OfxPlugin, sizeof...(Indices)> make_plugins(std::index_sequence<Indices...>)
 {
-    std::array<OfxPlugin, sizeof...(kIndices)> plugins { { { kOfxImageEffectPluginApi, kOfxImageEffectPluginApiVersion,
-                                                             "", PIMG_VERSION_MAJOR, PIMG_VERSION_MINOR,
-                                                             set_host<kIndices>, entry<kIndices> }... } };
+    std::array<OfxPlugin, sizeof...(Indices)> plugins { { { kOfxImageEffectPluginApi, kOfxImageEffectPluginApiVersion,
+                                                            "", PIMG_VERSION_MAJOR, PIMG_VERSION_MINOR,
+                                                            set_host<Indices>, entry<Indices> }... } };
     for (std::size_t i = 0; i < std::min(plugins.size(), effects().size()); ++i)
         plugins[i].pluginIdentifier = effects()[i].identifier.c_str();
     return plugins;

@@ -65,7 +65,7 @@ std::string joined(const pimg::OptionTexts& texts)
 {
     std::string line;
     for (const auto& [key, value] : texts)
-        line += "\n" + key + "=" + value;
+        line.append("\n").append(key).append("=").append(value);
     return line;
 }
 

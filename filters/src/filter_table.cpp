@@ -47,16 +47,16 @@ std::string written_by(const Options& options)
     return "";
 }
 
-template<class Options, Function<Options> function, FilterOutput output>
+template<class Options, Function<Options> Run, FilterOutput Output>
 bool bind(const OptionTexts& texts, BoundFilter& filter, std::string& error)
 {
     Options options;
     if (!set_options(options, texts, error))
         return false;
-    filter.output = output_of(options, output);
+    filter.output = output_of(options, Output);
     filter.written = written_by(options);
     filter.run = [options](OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI roi, int nthreads) {
-        return function(dst, src, options, roi, nthreads);
+        return Run(dst, src, options, roi, nthreads);
     };
     return true;
 }
@@ -67,16 +67,12 @@ struct Names {
 
 constexpr BareValue kSwitch = { "1", "", "" };
 
-template<class Options, Function<Options> function, FilterOutput output>
+template<class Options, Function<Options> Run, FilterOutput Output>
 Filter row(const Names& names, const BareValue& bare = kSwitch)
 {
-    return { names.name,
-             names.command,
-             names.summary,
-             bare,
-             output,
-             describe_options<Options>,
-             bind<Options, function, output> };
+    return {
+        names.name, names.command, names.summary, bare, Output, describe_options<Options>, bind<Options, Run, Output>
+    };
 }
 
 }  // namespace

@@ -45,6 +45,10 @@ class Closure:
 
 def key_of(tree, closure, path, command):
     digest = hashlib.sha256(command.replace(ROOT, "").encode())
+    more_config = os.path.join(tree.root, path.split("/")[0], ".clang-tidy")
+    if os.path.exists(more_config):
+        with open(more_config, "rb") as file:
+            digest.update(file.read())
     for part in closure.of(path):
         digest.update(part.encode() + tree.text(part).encode())
     return digest.hexdigest()

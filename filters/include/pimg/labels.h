@@ -13,7 +13,7 @@ namespace pimg {
 constexpr const char kLabelCount[] = "pimg:labels";
 
 /// The largest label up to which a type of sample holds all labels exactly.
-double largest_label(OIIO::TypeDesc type);
+double largest_label(const OIIO::TypeDesc& type);
 
 /// Writes labels to the first channel of `dst`, inside `roi`. `labels` begins with the label of the upper left pixel of
 /// `roi`; each row is `stride` labels after the one above. Labels are below `count`. `dst` must hold its pixels in memory.

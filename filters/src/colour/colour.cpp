@@ -160,7 +160,7 @@ OCIO::TransformRcPtr curve(double gamma, double offset)
     return transform;
 }
 
-OCIO::TransformRcPtr curves(const std::vector<float> (&samples)[3])
+OCIO::TransformRcPtr curves(const std::array<std::vector<float>, 3>& samples)
 {
     const std::size_t length = samples[0].size();
     const auto transform = OCIO::Lut1DTransform::Create((unsigned long)(length), false);

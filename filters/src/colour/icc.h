@@ -2,6 +2,7 @@
 // ICC profiles of pictures: primaries and transfer curves, read with Little CMS, which OpenColorIO does not do.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -14,10 +15,10 @@ namespace pimg {
 struct IccSpace {
     static constexpr std::size_t kSamples = 4096;  ///< a curve's; straight lines between them are exact to 16 bits
 
-    Chromaticities primaries {};        ///< adapted to D50, as profiles hold them
-    std::vector<float> curves[3];       ///< linear light at kSamples equal steps from 0 to 1
-    bool linear = false, srgb = false;  ///< the curves are straight; it is sRGB
-    std::string name;                   ///< as the profile describes itself
+    Chromaticities primaries {};               ///< adapted to D50, as profiles hold them
+    std::array<std::vector<float>, 3> curves;  ///< linear light at kSamples equal steps from 0 to 1
+    bool linear = false, srgb = false;         ///< the curves are straight; it is sRGB
+    std::string name;                          ///< as the profile describes itself
 };
 
 /// False for what is no profile of RGB or grey pictures, or one whose colours are a table instead of a matrix.

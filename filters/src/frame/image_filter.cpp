@@ -55,7 +55,7 @@ bool prepare(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, R
 }
 
 bool prepare_single(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, const char* name,
-                    OIIO::TypeDesc type)
+                    const OIIO::TypeDesc& type)
 {
     if (!is_built(dst, src))
         return false;

@@ -34,7 +34,7 @@ bool prepare(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, R
 /// The same for results of one channel called `name`: a new `dst` has no other, and only the first of an old one
 /// changes. UNKNOWN: the pixel type of the source.
 bool prepare_single(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, const char* name,
-                    OIIO::TypeDesc type);
+                    const OIIO::TypeDesc& type);
 
 /// Makes results of the colour channels of row `y` for the pixels [roi.xbegin, roi.xend) of the
 /// picture. `row` holds all channels of those pixels, as in the source.
@@ -85,6 +85,42 @@ bool run_filter(OIIO::ImageBuf& dst, const Options& options, Body&& body)
         set_error(dst, exception.what());
     }
     return false;
+}
+
+/// The arguments of a filter but its options.
+struct FilterCall {
+    OIIO::ImageBuf& dst;
+    const ProgressiveImage& src;
+    OIIO::ROI roi;
+    int nthreads;
+};
+
+/// What a filter makes: one raster of the picture's size for each colour.
+struct PictureResult {
+    Channels channels;
+    Specials specials = Specials::restored;
+};
+
+/// A filter whose result is a picture: make(data, parallel, result, error) makes its colours, or returns false with one
+/// line in `error`. Everything else is done here.
+template<class Options, class Make>
+bool filter_picture(const FilterCall& call, const Options& options, ResultType type, Make&& make)
+{
+    return run_filter(call.dst, options, [&] {
+        OIIO::ROI roi = call.roi;
+        if (!prepare(call.dst, call.src, roi, type))
+            return false;
+        ProgressiveImage::Data& data = *call.src.data();
+        const ParallelFor parallel = pool_loop(call.nthreads);
+        PictureResult result;
+        std::string error;
+        if (!make(data, parallel, result, error)) {
+            set_error(call.dst, error);
+            return false;
+        }
+        write_channels(call.dst, data, roi, parallel, result.channels, result.specials);
+        return true;
+    });
 }
 
 }  // namespace pimg

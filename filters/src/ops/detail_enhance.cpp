@@ -170,24 +170,17 @@ void shade(const ProgressiveImage::Data& data, Channels& results)
 bool on_hierarchy::detail_enhance(ImageBuf& dst, const ProgressiveImage& src, const DetailEnhanceOptions& options,
                                   ROI roi, int nthreads)
 {
-    return run_filter(dst, options, [&] {
-        if (!prepare(dst, src, roi, ResultType::floating))
-            return false;
-        ProgressiveImage::Data& data = *src.data();
-        const ParallelFor parallel = pool_loop(nthreads);
+    const auto make = [&](ProgressiveImage::Data& data, const ParallelFor& parallel, PictureResult& result,
+                          std::string& error) {
         const bool by_contrast = options.strength >= 0.0f || options.noise >= 0.0f || options.log;
-        Channels results;
-        std::string error;
-        if (!(by_contrast ? by_strength : by_position)(data, options, parallel, results, error)) {
-            set_error(dst, error);
+        if (!(by_contrast ? by_strength : by_position)(data, options, parallel, result.channels, error))
             return false;
-        }
         if (is_scene_linear(data))
-            shade(data, results);
-        bound_below(data, parallel, results);
-        write_channels(dst, data, roi, parallel, results);
+            shade(data, result.channels);
+        bound_below(data, parallel, result.channels);
         return true;
-    });
+    };
+    return filter_picture({ dst, src, roi, nthreads }, options, ResultType::floating, make);
 }
 
 }  // namespace ImageBufAlgo

@@ -71,24 +71,17 @@ void by_strength(ProgressiveImage::Data& data, const FeatureLowpassOptions& opti
 bool on_hierarchy::feature_lowpass(ImageBuf& dst, const ProgressiveImage& src, const FeatureLowpassOptions& options,
                                    ROI roi, int nthreads)
 {
-    return run_filter(dst, options, [&] {
-        if (!prepare(dst, src, roi, ResultType::as_source))
-            return false;
-        ProgressiveImage::Data& data = *src.data();
-        const ParallelFor parallel = pool_loop(nthreads);
+    const auto make = [&](ProgressiveImage::Data& data, const ParallelFor& parallel, PictureResult& result,
+                          std::string& error) {
         const bool positional = options.splits >= 0 || options.fraction >= 0.0f;
-        Channels results;
-        std::string error;
-        if (!positional) {
-            by_strength(data, options, parallel, results);
-        } else if (!by_position(data, options, parallel, results, error)) {
-            set_error(dst, error);
+        if (!positional)
+            by_strength(data, options, parallel, result.channels);
+        else if (!by_position(data, options, parallel, result.channels, error))
             return false;
-        }
-        bound_below(data, parallel, results);
-        write_channels(dst, data, roi, parallel, results);
+        bound_below(data, parallel, result.channels);
         return true;
-    });
+    };
+    return filter_picture({ dst, src, roi, nthreads }, options, ResultType::as_source, make);
 }
 
 }  // namespace ImageBufAlgo

@@ -71,21 +71,16 @@ bool find_level(const Hierarchy& hierarchy, const LevelOptions& options, Level& 
 bool on_hierarchy::level_image(ImageBuf& dst, const ProgressiveImage& src, const LevelOptions& options, ROI roi,
                                int nthreads)
 {
-    return run_filter(dst, options, [&] {
-        if (!prepare(dst, src, roi, ResultType::as_source))
-            return false;
-        ProgressiveImage::Data& data = *src.data();
-        const ParallelFor parallel = pool_loop(nthreads);
+    const auto make = [&](ProgressiveImage::Data& data, const ParallelFor& parallel, PictureResult& result,
+                          std::string& error) {
         LevelPicture picture;
-        std::string error;
-        if (!make_level(data, options, true, parallel, picture, error)) {
-            set_error(dst, error);
+        if (!make_level(data, options, true, parallel, picture, error))
             return false;
-        }
-        const Specials specials = picture.level == data.hierarchy.levels() ? Specials::restored : Specials::replaced;
-        write_channels(dst, data, roi, parallel, picture.channels, specials);
+        result.specials = picture.level == data.hierarchy.levels() ? Specials::restored : Specials::replaced;
+        result.channels = std::move(picture.channels);
         return true;
-    });
+    };
+    return filter_picture({ dst, src, roi, nthreads }, options, ResultType::as_source, make);
 }
 
 }  // namespace ImageBufAlgo

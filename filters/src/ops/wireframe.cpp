@@ -33,17 +33,11 @@ void draw_over(const std::vector<float>& coverage, std::vector<float>& channel)
 bool on_hierarchy::wireframe(ImageBuf& dst, const ProgressiveImage& src, const WireframeOptions& options, ROI roi,
                              int nthreads)
 {
-    return run_filter(dst, options, [&] {
-        if (!prepare(dst, src, roi, ResultType::as_source))
-            return false;
-        ProgressiveImage::Data& data = *src.data();
-        const ParallelFor parallel = pool_loop(nthreads);
+    const auto make = [&](ProgressiveImage::Data& data, const ParallelFor& parallel, PictureResult& result,
+                          std::string& error) {
         LevelPicture picture;
-        std::string error;
-        if (!make_level(data, options, options.overlay, parallel, picture, error)) {
-            set_error(dst, error);
+        if (!make_level(data, options, options.overlay, parallel, picture, error))
             return false;
-        }
         std::vector<float> coverage = pimg::wireframe(picture.mesh, options.line);
         crop_to_picture(data.hierarchy, coverage);
         if (options.overlay) {
@@ -61,9 +55,10 @@ bool on_hierarchy::wireframe(ImageBuf& dst, const ProgressiveImage& src, const W
             picture.channels.assign(std::size_t(data.colour.count()), coverage);
             associate(data, picture.channels);
         }
-        write_channels(dst, data, roi, parallel, picture.channels, Specials::replaced);
+        result = { std::move(picture.channels), Specials::replaced };
         return true;
-    });
+    };
+    return filter_picture({ dst, src, roi, nthreads }, options, ResultType::as_source, make);
 }
 
 }  // namespace ImageBufAlgo

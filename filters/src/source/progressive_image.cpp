@@ -224,6 +224,8 @@ Status ProgressiveImage::Data::adopt(const std::vector<Raster>& channels, const 
     shape.width = spec.width, shape.height = spec.height;
     std::vector<std::vector<float>> samples;
     std::vector<const float*> pointers;
+    samples.reserve(channels.size());
+    pointers.reserve(channels.size());
     for (const Raster& channel : channels)
         samples.push_back(to_mesh_pixels(shape, channel.samples.data()));
     for (const std::vector<float>& channel : samples)
@@ -288,6 +290,8 @@ const ChannelBands* ProgressiveImage::Data::channel_bands(const ParallelFor& par
         channels->exponent = largest > 0x1p100f ? 30 : 0;
         std::vector<std::vector<float>> samples;
         std::vector<const float*> pointers;
+        samples.reserve(std::size_t(colour.count()));
+        pointers.reserve(std::size_t(colour.count()));
         for (int c = 0; c < colour.count(); ++c)
             samples.push_back(mesh_samples(*this, colour.channel(c), channels->exponent));
         for (const std::vector<float>& channel : samples)

@@ -100,6 +100,7 @@ bool fill_inkwells(ProgressiveImage::Data& data, const InkOptions& options, cons
         regions[label].area += 1.0f;
     const InkChoice choice = choose_inks(regions, options.colours);
     std::vector<float> inks;
+    inks.reserve(labels.size());
     for (const Index label : labels)
         inks.push_back(float(choice.ink_of_region[label]));
     for (const float ink : to_mesh_pixels(data.hierarchy, inks.data()))
@@ -244,21 +245,15 @@ bool draw(ProgressiveImage::Data& data, const InkOptions& options, const Paralle
 
 bool on_hierarchy::ink(ImageBuf& dst, const ProgressiveImage& src, const InkOptions& options, ROI roi, int nthreads)
 {
-    return run_filter(dst, options, [&] {
-        if (!prepare(dst, src, roi, ResultType::as_source))
+    const auto make = [&](ProgressiveImage::Data& data, const ParallelFor& parallel, PictureResult& result,
+                          std::string& error) {
+        if (!draw(data, options, parallel, result.channels, error))
             return false;
-        ProgressiveImage::Data& data = *src.data();
-        const ParallelFor parallel = pool_loop(nthreads);
-        Channels results;
-        std::string error;
-        if (!draw(data, options, parallel, results, error)) {
-            set_error(dst, error);
-            return false;
-        }
-        associate(data, results);
-        write_channels(dst, data, roi, parallel, results, Specials::replaced);
+        associate(data, result.channels);
+        result.specials = Specials::replaced;
         return true;
-    });
+    };
+    return filter_picture({ dst, src, roi, nthreads }, options, ResultType::as_source, make);
 }
 
 }  // namespace ImageBufAlgo

@@ -37,21 +37,18 @@ void straighten(const ProgressiveImage::Data& data, const Tiling& tiling, Index 
 bool on_hierarchy::mosaic(ImageBuf& dst, const ProgressiveImage& src, const MosaicOptions& options, ROI roi,
                           int nthreads)
 {
-    return run_filter(dst, options, [&] {
-        if (!prepare(dst, src, roi, ResultType::as_source))
-            return false;
-        ProgressiveImage::Data& data = *src.data();
-        const ParallelFor parallel = pool_loop(nthreads);
+    const auto make = [&](ProgressiveImage::Data& data, const ParallelFor& parallel, PictureResult& result,
+                          std::string& error) {
         std::vector<float> grout;
         if (!parse_colour(options.colour, data.colour.count(), grout)) {
-            set_error(dst, format("colour: \"{}\": expected a colour, such as black or 0.2,0.2,0.2", options.colour));
+            error = format("colour: \"{}\": expected a colour, such as black or 0.2,0.2,0.2", options.colour);
             return false;
         }
         Mesh mesh;
         const Level level = data.hierarchy.level_of_vertices(options.tiles);
         const Status status = refine(data.hierarchy, level, mesh);
         if (!status) {
-            set_error(dst, status.error());
+            error = status.error();
             return false;
         }
         OwnedChannels picture = stored_channels(data);
@@ -64,9 +61,10 @@ bool on_hierarchy::mosaic(ImageBuf& dst, const ProgressiveImage& src, const Mosa
         for (std::vector<float>& channel : picture.channels)
             crop_to_picture(data.hierarchy, channel);
         associate(data, picture.channels);
-        write_channels(dst, data, roi, parallel, picture.channels, Specials::replaced);
+        result = { std::move(picture.channels), Specials::replaced };
         return true;
-    });
+    };
+    return filter_picture({ dst, src, roi, nthreads }, options, ResultType::as_source, make);
 }
 
 }  // namespace ImageBufAlgo

@@ -229,22 +229,16 @@ bool paint_canvas(ProgressiveImage::Data& data, const PaintOptions& options, con
 
 bool on_hierarchy::paint(ImageBuf& dst, const ProgressiveImage& src, const PaintOptions& options, ROI roi, int nthreads)
 {
-    return run_filter(dst, options, [&] {
-        if (!prepare(dst, src, roi, ResultType::as_source))
-            return false;
-        ProgressiveImage::Data& data = *src.data();
-        const ParallelFor parallel = pool_loop(nthreads);
+    const auto make = [&](ProgressiveImage::Data& data, const ParallelFor& parallel, PictureResult& result,
+                          std::string& error) {
         Studio studio;
-        std::string error;
-        if (!load(options, data, studio, error) || !paint_canvas(data, options, parallel, studio, error)) {
-            set_error(dst, error);
+        if (!load(options, data, studio, error) || !paint_canvas(data, options, parallel, studio, error))
             return false;
-        }
         const bool untouched = options.opacity == 0.0f && studio.on_the_picture;
-        write_channels(dst, data, roi, parallel, studio.canvas.channels,
-                       untouched ? Specials::restored : Specials::replaced);
+        result = { std::move(studio.canvas.channels), untouched ? Specials::restored : Specials::replaced };
         return true;
-    });
+    };
+    return filter_picture({ dst, src, roi, nthreads }, options, ResultType::as_source, make);
 }
 
 }  // namespace ImageBufAlgo

@@ -23,7 +23,7 @@ bool write_as(OIIO::ImageBuf& dst, OIIO::ROI roi, const Index* labels, std::size
 
 }  // namespace
 
-double largest_label(TypeDesc type)
+double largest_label(const TypeDesc& type)
 {
     switch (type.basetype) {
     case TypeDesc::UINT8:
