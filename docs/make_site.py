@@ -20,7 +20,7 @@ CONTENTS = (
     ("Use", ("README.md", "docs/cookbook.md", "docs/reference.md", "docs/view.md", "docs/troubleshooting.md",
              "docs/gallery/README.md")),
     ("Pipelines", ("docs/pipeline.md", "docs/python.md", "docs/plugin.md", "docs/hosts.md", "docs/ofx.md", "docs/gainmap.md")),
-    ("How it works", ("docs/smoothing.md", "docs/adaptive.md", "docs/performance.md", "docs/format.md",
+    ("How it works", ("docs/look.md", "docs/smoothing.md", "docs/adaptive.md", "docs/performance.md", "docs/format.md",
                       "docs/internals.md")),
     ("Trust", ("SECURITY.md", "docs/security.md", "docs/versions.md", "THIRD-PARTY.md", "fuzz/README.md")),
     ("Development", ("docs/architecture.md", "CONTRIBUTING.md", "CHANGELOG.md")),

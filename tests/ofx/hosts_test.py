@@ -73,7 +73,7 @@ class Hosts(ofx_host.HostTest):
     def test_what_is_found_in_a_frame(self):
         said = self.host("render", "hdr_compress", "in.exr", "out.exr", "--press", "analyse_frame", "--show", 1)
         found = dict(re.findall(r"^found_(\w+) = (\S+)$", said, re.MULTILINE))
-        options = ":".join(f"{key}={found[key]}" for key in ("s0", "dmax", "key", "white", "contrast"))
+        options = ":".join(f"{key}={found[key]}" for key in ("s0", "dmax", "detail", "key", "white"))
         self.assertLess(np.abs(self.tool("hdr_compress", options) - self.tool("hdr_compress")).max(), 1e-5)
 
     def test_colour_spaces(self):

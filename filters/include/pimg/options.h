@@ -160,14 +160,16 @@ struct SegmentOptions {
 /// HDR compression (section 5.1, Eq. 2) with a contrast envelope and automatic exposure. Where 0 means "found", the value
 /// is found from the picture; resolve_hdr_compress() tells which it is.
 struct HdrCompressOptions {
-    float s0 = 0.0f;     ///< scale of the base and of the largest details; 0: found
-    float beta = 10.0f;  ///< how fast compression gets weaker towards smaller details
-    float dmax = 0.0f;   ///< size in stops from which on details are compressed fully; 0: found
+    float s0 = 0.0f;       ///< scale of the base and of the largest details; 0: found
+    float beta = 10.0f;    ///< how fast compression gets weaker towards smaller details
+    float dmax = 0.0f;     ///< size in stops from which on details are compressed fully; 0: found
+    float detail = 0.0f;   ///< gain of the smallest details, 1 in Eq. (2); 0: found, or 1 without fit or coherence
+    float denoise = 1.0f;  ///< details within this many times the noise are calmed, not amplified; 0: none is noise
     float coherence =
         0.75f;  ///< how far details are compressed like the coarser features around them; 0: Eq. (2) as printed
-    float saturation = 1.0f;  ///< exponent on the ratio of a channel to luminance; 1 keeps colours, 0 makes grey
+    float saturation = 1.0f;  ///< colourfulness; 1 looks like the scene, 0 makes grey
     bool fit = true;          ///< place middle grey and white on the display; false: stay in the picture's units
-    float contrast = 0.0f;    ///< factor on the compressed log luminance; 0: found
+    float contrast = 1.0f;    ///< factor on the compressed log luminance
     float key = 0.0f;         ///< luminance of the compressed picture shown as middle grey (0.18); 0: found
     float white = 0.0f;       ///< luminance of the compressed picture shown as white; 0: found
     float exposure = 0.0f;    ///< added to the exposure, in stops

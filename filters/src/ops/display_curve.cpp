@@ -27,13 +27,15 @@ HWY_INLINE Vector set(float value)
     return hn::Set(Lanes(), value);
 }
 
-HWY_INLINE Vector roll_off(const Shoulder& shoulder, Vector y)
+HWY_INLINE Vector tone(const ToneCurve& curve, Vector y)
 {
-    constexpr float kRest = 1.0f - Shoulder::kKnee;
-    const Vector knee = set(Shoulder::kKnee), one = set(1.0f);
+    constexpr float kRest = 1.0f - ToneCurve::kKnee;
+    const Vector knee = set(ToneCurve::kKnee), one = set(1.0f);
+    y = hn::Min(y, set(1e18f));  // whose square is finite
+    y = y * (y / (y + set(curve.toe + 1e-30f)));
     const Vector t = (y - knee) * set(1.0f / kRest);
-    const Vector curved = knee + set(kRest) * (t * (one + t * set(shoulder.inverse_square)) / (one + t));
-    return hn::IfThenElse(y <= knee, y, hn::IfThenElse(y < set(shoulder.white), curved, one));
+    const Vector curved = knee + set(kRest) * (t * (one + t * set(curve.inverse_square)) / (one + t));
+    return hn::IfThenElse(y <= knee, y, hn::IfThenElse(y < set(curve.white), curved, one));
 }
 
 HWY_INLINE Vector luminance(const Recolour& how, const Pixels& p)
@@ -48,22 +50,138 @@ HWY_INLINE Vector saturated(Vector sample, Vector y, float saturation)
     return hn::CopySign(y * power(hn::Abs(sample / y), saturation), sample);
 }
 
-/// Mixes in as much of grey `y` as brings all channels into 0..1: that keeps hue and luminance.
-HWY_INLINE void into_gamut(Vector y, Pixels& p)
+HWY_INLINE void scale(Vector factor, Pixels& p)
 {
-    const Vector zero = set(0.0f), one = set(1.0f);
-    const Vector least = hn::Min(hn::Min(p.r, p.g), p.b), most = hn::Max(hn::Max(p.r, p.g), p.b);
-    const auto below = least<zero, above = most> one, outside = hn::Or(below, above);
-    if (hn::AllFalse(Lanes(), outside))
-        return;
-    Vector share = hn::IfThenElse(above, (one - y) / (most - y), one);
-    share = hn::IfThenElse(below, hn::Min(share, y / (y - least)), share);
     for (Vector* channel : { &p.r, &p.g, &p.b })
-        *channel = hn::IfThenElse(outside, hn::Min(hn::Max(y + share * (*channel - y), zero), one), *channel);
+        *channel = *channel * factor;
+}
+
+struct Lab {
+    Vector l, a, b;
+};
+
+HWY_INLINE Vector weighted(const float (&weights)[3], Vector x, Vector y, Vector z)
+{
+    return set(weights[0]) * x + set(weights[1]) * y + set(weights[2]) * z;
+}
+
+// The matrices of Oklab for linear Rec. 709.
+constexpr float kLms[3][3] = { { 0.4122214708f, 0.5363325363f, 0.0514459929f },
+                               { 0.2119034982f, 0.6806995451f, 0.1073969566f },
+                               { 0.0883024619f, 0.2817188376f, 0.6299787005f } };
+constexpr float kLab[3][3] = { { 0.2104542553f, 0.7936177850f, -0.0040720468f },
+                               { 1.9779984951f, -2.4285922050f, 0.4505937099f },
+                               { 0.0259040371f, 0.7827717662f, -0.8086757660f } };
+constexpr float kLmsOfAb[3][2] = { { 0.3963377774f, 0.2158037573f },
+                                   { -0.1055613458f, -0.0638541728f },
+                                   { -0.0894841775f, -1.2914855480f } };
+constexpr float kRgb[3][3] = { { 4.0767416621f, -3.3077115913f, 0.2309699292f },
+                               { -1.2684380046f, 2.6097574011f, -0.3413193965f },
+                               { -0.0041960863f, -0.7034186147f, 1.7076147010f } };
+
+HWY_INLINE Lab to_oklab(const Pixels& p)
+{
+    const Vector l = power(weighted(kLms[0], p.r, p.g, p.b), 1.0f / 3.0f);
+    const Vector m = power(weighted(kLms[1], p.r, p.g, p.b), 1.0f / 3.0f);
+    const Vector s = power(weighted(kLms[2], p.r, p.g, p.b), 1.0f / 3.0f);
+    return { weighted(kLab[0], l, m, s), weighted(kLab[1], l, m, s), weighted(kLab[2], l, m, s) };
+}
+
+HWY_INLINE Pixels from_oklab(const Lab& lab)
+{
+    const auto cube = [](Vector x) {
+        return x * x * x;
+    };
+    const Vector l = cube(lab.l + set(kLmsOfAb[0][0]) * lab.a + set(kLmsOfAb[0][1]) * lab.b);
+    const Vector m = cube(lab.l + set(kLmsOfAb[1][0]) * lab.a + set(kLmsOfAb[1][1]) * lab.b);
+    const Vector s = cube(lab.l + set(kLmsOfAb[2][0]) * lab.a + set(kLmsOfAb[2][1]) * lab.b);
+    return { weighted(kRgb[0], l, m, s), weighted(kRgb[1], l, m, s), weighted(kRgb[2], l, m, s) };
+}
+
+/// Colours with more than this share of the greatest saturation in gamut are drawn in.
+constexpr float kFullSaturation = 0.85f;
+
+/// Colours on the line from the grey of a luminance to a colour of that luminance, at constant hue.
+class HueLine {
+public:
+    HWY_INLINE HueLine(const Recolour& how, Vector y, const Pixels& p)
+        : m_how(how),
+          m_y(y),
+          m_grey(power(y, 1.0f / 3.0f)),
+          m_lab(to_oklab(p))
+    {
+    }
+
+    /// At `share` of the way to the colour.
+    HWY_INLINE Pixels at(Vector share) const
+    {
+        Pixels p = from_oklab({ m_grey + share * (m_lab.l - m_grey), share * m_lab.a, share * m_lab.b });
+        const Vector y = set(m_how.weights[0]) * p.r + set(m_how.weights[1]) * p.g + set(m_how.weights[2]) * p.b;
+        scale(m_y / hn::Max(y, set(1e-30f)), p);
+        return p;
+    }
+
+private:
+    const Recolour& m_how;
+    Vector m_y, m_grey;
+    Lab m_lab;
+};
+
+HWY_INLINE auto outside(const Pixels& p)
+{
+    const Vector least = hn::Min(hn::Min(p.r, p.g), p.b), most = hn::Max(hn::Max(p.r, p.g), p.b);
+    return hn::Or(least<set(0.0f), most> set(1.0f));
+}
+
+/// Draws colours of luminance y, which is positive and at most 1, into the display's gamut.
+HWY_INLINE void into_gamut(const Recolour& how, Vector y, Pixels& p)
+{
+    // Most colours are far inside: mixed with grey linearly, which is not the line of the hue but near it.
+    constexpr float kMargin = 1.6f;
+    Pixels beyond = p;
+    for (Vector* channel : { &beyond.r, &beyond.g, &beyond.b })
+        *channel = y + set(kMargin) * (*channel - y);
+    const auto near = outside(beyond);
+    if (hn::AllFalse(Lanes(), near))
+        return;
+    const HueLine line(how, y, p);
+    // The share at which the line leaves the gamut, if that is before 1 / kFullSaturation.
+    constexpr int kHalvings = 10;
+    Vector in = set(0.0f), out = set(1.0f / kFullSaturation);
+    const auto leaves = hn::And(near, outside(line.at(out)));
+    if (hn::AllFalse(Lanes(), leaves))
+        return;
+    for (int i = 0; i < kHalvings; ++i) {
+        const Vector middle = set(0.5f) * (in + out);
+        const auto is_out = outside(line.at(middle));
+        out = hn::IfThenElse(is_out, middle, out);
+        in = hn::IfThenElse(is_out, in, middle);
+    }
+    const Vector full = set(kFullSaturation), rest = set(1.0f - kFullSaturation), one = set(1.0f);
+    const Vector too_much = (one / hn::Max(in, set(1e-6f)) - full) / rest;
+    const Vector share = in * (full + rest * (too_much / (one + too_much)));
+    const Pixels drawn = line.at(share);
+    p.r = hn::IfThenElse(leaves, drawn.r, p.r);
+    p.g = hn::IfThenElse(leaves, drawn.g, p.g);
+    p.b = hn::IfThenElse(leaves, drawn.b, p.b);
+    for (Vector* channel : { &p.r, &p.g, &p.b })
+        *channel = hn::Min(hn::Max(*channel, set(0.0f)), set(1.0f));
+}
+
+/// Mixes colours with the grey of their luminance as far as their light is noise.
+HWY_INLINE void fade(const Recolour& how, Vector y, Pixels& p)
+{
+    constexpr float kFaded = 4.0f;  // at two standard deviations of the noise, half of the colour is left
+    const Vector light = hn::Min(y, set(1e18f));
+    const Vector square = light * light;
+    const Vector noise = set(kFaded) * (set(how.read) + set(how.photon) * light);
+    const Vector share = square / hn::Max(square + noise, set(1e-37f));
+    for (Vector* channel : { &p.r, &p.g, &p.b })
+        *channel = y + share * (*channel - y);
 }
 
 /// To display luminance y from luminance `from`, both positive.
-HWY_INLINE void fit(Vector from, Vector y, Pixels& p)
+HWY_INLINE void fit(const Recolour& how, Vector from, Vector y, Pixels& p)
 {
     // Divided first where the ratio would be too small for a float.
     const auto is_huge = from > set(1e30f);
@@ -73,19 +191,25 @@ HWY_INLINE void fit(Vector from, Vector y, Pixels& p)
         const Vector scaled = *channel * ratio;
         *channel = any_huge ? hn::IfThenElse(is_huge, *channel / from * y, scaled) : scaled;
     }
-    into_gamut(y, p);
+    into_gamut(how, y, p);
 }
 
 HWY_INLINE void recolour_vector(const Recolour& how, Vector compressed, Vector guide, Pixels& p)
 {
     const Vector factor = exp2(set(how.slope) * compressed - guide * set(1.0f / kUnitsPerStop) + set(how.offset));
-    const Vector from = luminance(how, p);
+    Vector from = luminance(how, p);
     const auto lit = from > set(0.0f);
-    if (how.saturation != 1.0f)
+    const Vector y = how.fit ? tone(how.curve, from * factor) : from;
+    if (how.fit && how.read + how.photon > 0.0f)
+        fade(how, from, p);
+    if (how.saturation != 1.0f) {
         for (Vector* channel : { &p.r, &p.g, &p.b })
             *channel = hn::IfThenElse(lit, saturated(*channel, from, how.saturation), *channel);
+        if (how.fit)  // other ratios have another luminance
+            from = luminance(how, p);
+    }
     if (how.fit)
-        fit(from, roll_off(how.shoulder, from * factor), p);
+        fit(how, from, y, p);
     for (Vector* channel : { &p.r, &p.g, &p.b })
         *channel = how.fit ? hn::IfThenElseZero(lit, *channel) : *channel * factor;
 }
@@ -106,10 +230,10 @@ void recolour(const Recolour& how, const float* compressed, const float* guide, 
     });
 }
 
-void lightness_in_place(const Shoulder& shoulder, float* stops, std::size_t count)
+void lightness_in_place(const ToneCurve& curve, float* stops, std::size_t count)
 {
     for_vectors(count, [&](std::size_t i, std::size_t n) {
-        store(power(roll_off(shoulder, exp2(load(stops + i, n))), 1.0f / 3.0f), n, stops + i);
+        store(power(tone(curve, exp2(load(stops + i, n))), 1.0f / 3.0f), n, stops + i);
     });
 }
 
@@ -123,7 +247,9 @@ namespace pimg {
 HWY_EXPORT(recolour);
 HWY_EXPORT(lightness_in_place);
 
-Shoulder::Shoulder(float reaches_one_at) : white(std::max(reaches_one_at, 1.000001f))
+ToneCurve::ToneCurve(float toe_luminance, float reaches_one_at)
+    : toe(toe_luminance),
+      white(std::max(reaches_one_at, 1.000001f))
 {
     const float t = (white - kKnee) / (1.0f - kKnee);
     inverse_square = 1.0f / (t * t);
@@ -134,9 +260,9 @@ void recolour(const Recolour& how, const float* compressed, const float* guide, 
     HWY_DYNAMIC_DISPATCH(recolour)(how, compressed, guide, count, rgb);
 }
 
-void lightness_in_place(const Shoulder& shoulder, float* stops, std::size_t count)
+void lightness_in_place(const ToneCurve& curve, float* stops, std::size_t count)
 {
-    HWY_DYNAMIC_DISPATCH(lightness_in_place)(shoulder, stops, count);
+    HWY_DYNAMIC_DISPATCH(lightness_in_place)(curve, stops, count);
 }
 
 }  // namespace pimg

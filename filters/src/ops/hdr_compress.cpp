@@ -17,6 +17,15 @@ namespace ImageBufAlgo {
 
 namespace {
 
+/// Gain of details that are noise. Chosen so that a noisy dim room shows no more noise beside its relief than the source
+/// does: 1.2, where none of the details would be calmed 4.2 (tm_look.py noise).
+constexpr float kQuiet = 0.1f;
+
+/// Compressed pictures need less saturation for the same colourfulness (Mantiuk, Tomaszewska and Heidrich, "Color correction
+/// for tone mapping", 2009). Their formula is for one contrast of the whole picture; here details keep theirs, and of the
+/// compressed base this much is left.
+constexpr float kSaturation = 0.9f;
+
 /// log2 of the luminance at guide value 0 after compression: the base is scaled about luminance 1.
 float compressed_reference(const HdrCompressOptions& options, float reference)
 {
@@ -25,24 +34,31 @@ float compressed_reference(const HdrCompressOptions& options, float reference)
 
 DetailGain gain_of(const HdrCompressOptions& options)
 {
-    return { options.s0, options.beta, options.dmax * kUnitsPerStop };
+    return { options.s0, options.beta, options.dmax * kUnitsPerStop, options.detail, kQuiet };
+}
+
+EnvelopeOptions envelope_of(const HdrCompressOptions& options, const NoiseModel& noise)
+{
+    return { options.coherence, range_of(options) * kUnitsPerStop,
+             options.fit ? noise.times(options.denoise) : NoiseModel() };
 }
 
 /// Fills in what is 0 and not found from dmax alone.
 void find_exposure(const Overview& overview, float reference, HdrCompressOptions& options)
 {
-    std::vector<float> envelope, values(overview.bands->plan.places()), cells(overview.hierarchy.mesh_pixels());
+    std::vector<float> values(overview.bands->plan.places()), cells(overview.hierarchy.mesh_pixels());
+    Envelope envelope;
     if (options.coherence > 0.0f)
-        envelope = contrast_envelope(*overview.bands, options.coherence, range_of(options) * kUnitsPerStop, {});
-    compress(*overview.bands, gain_of(options), envelope.empty() ? nullptr : &envelope, {}, values.data());
+        envelope = contrast_envelope(*overview.bands, envelope_of(options, {}), {});
+    compress(*overview.bands, gain_of(options), envelope.contrast.empty() ? nullptr : &envelope, {}, values.data());
     overview.bands->plan.scatter(overview.hierarchy, values.data(), cells.data());
     crop_to_picture(overview.hierarchy, cells);
     const float dark = compressed_reference(options, reference);
-    std::vector<float> stops;
+    CompressedCells stops;
     for (std::size_t i = 0; i < cells.size(); ++i)
         if (overview.lit[i])
-            stops.push_back(cells[i] / kUnitsPerStop + dark);
-    find_exposure(std::move(stops), dark, options);
+            stops.push_back({ cells[i] / kUnitsPerStop + dark, overview.weight[i] });
+    find_exposure(std::move(stops), find_scene_key(overview), dark, options);
 }
 
 /// An Overview is asked for only if there is something to find.
@@ -64,6 +80,7 @@ struct Compressed {
     HdrCompressOptions options;  ///< resolved
     const LogLuminance* luminance = nullptr;
     Scratch samples;
+    NoiseModel noise;
 };
 
 bool compress_luminance(ProgressiveImage::Data& data, const ParallelFor& parallel, Compressed& c, std::string& error)
@@ -78,9 +95,10 @@ bool compress_luminance(ProgressiveImage::Data& data, const ParallelFor& paralle
     const DetailGain gain = gain_of(options);
     const std::shared_ptr<const PlannedBands> planned = data.planned_log_bands(parallel);
     Scratch values(data, planned->plan.places());
-    std::shared_ptr<const std::vector<float>> envelope;
+    std::shared_ptr<const Envelope> envelope;
     if (options.coherence > 0.0f)
-        envelope = data.envelope(planned, options.coherence, range_of(options) * kUnitsPerStop, parallel);
+        envelope = data.envelope(planned, envelope_of(options, log->noise), parallel);
+    c.noise = log->noise.times(options.denoise);
     compress(*planned, gain, envelope.get(), parallel, (*values).data());
     planned->plan.scatter(data.hierarchy, (*values).data(), (*c.samples).data(), parallel);
     crop_to_picture(data.hierarchy, *c.samples);
@@ -126,9 +144,11 @@ private:
         Recolour r { converts ? Colour().weights() : colour.weights(),
                      1.0f / kUnitsPerStop,
                      compressed_ref - reference,
-                     options.saturation,
+                     options.saturation * (options.fit ? kSaturation : 1.0f),
                      options.fit,
-                     Shoulder(options.fit ? shoulder_white(options) : 1.0f) };
+                     options.fit ? tone_curve(options) : ToneCurve(0.0f, 1.0f),
+                     compressed.noise.read,
+                     compressed.noise.photon };
         if (options.fit) {
             r.slope = options.contrast / kUnitsPerStop;
             r.offset = options.contrast * (compressed_ref - std::log2(options.key)) + std::log2(kMiddleGrey)
@@ -143,11 +163,23 @@ private:
     /// Results for displays are made in Rec. 709, so that they do not depend on the primaries a scene is stored in.
     void recolour_pixels(Index first, std::size_t count, float* rgb) const
     {
-        if (m_compressed.options.fit)
+        if (m_compressed.options.fit) {
+            put_in_filled(first, count, rgb);
             m_data.colour.to_rec709(rgb, count);
+        }
         recolour(m_how, compressed(first), guide(first), count, rgb);
         if (m_compressed.options.fit)
             m_data.colour.from_rec709(rgb, count);
+    }
+
+    /// Ringing is shown with the light around it.
+    void put_in_filled(Index first, std::size_t count, float* rgb) const
+    {
+        const std::vector<FilledPixel>& filled = m_compressed.luminance->filled;
+        auto it = std::lower_bound(filled.begin(), filled.end(), first,
+                                   [](const FilledPixel& f, Index pixel) { return f.pixel < pixel; });
+        for (; it != filled.end() && it->pixel < first + Index(count); ++it)
+            std::copy(it->rgb.begin(), it->rgb.end(), rgb + 3 * (it->pixel - first));
     }
 
     /// Pixels whose colour is not three samples in a row, as displays want them, or not linear.
@@ -235,7 +267,7 @@ bool on_hierarchy::hdr_compress(ImageBuf& dst, const ProgressiveImage& src, cons
             return false;
         ProgressiveImage::Data& data = *src.data();
         const ParallelFor parallel = pool_loop(nthreads);
-        Compressed compressed { options, nullptr, { data, data.hierarchy.mesh_pixels() } };
+        Compressed compressed { options, nullptr, { data, data.hierarchy.mesh_pixels() }, {} };
         std::string error;
         if (!compress_luminance(data, parallel, compressed, error)) {
             set_error(dst, error);

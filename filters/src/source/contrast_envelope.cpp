@@ -14,12 +14,45 @@ PlannedBands::PlannedBands(SweepPlan&& made, const Bands& bands, const ParallelF
 {
 }
 
-std::vector<float> contrast_envelope(const PlannedBands& bands, float coherence, float range,
-                                     const ParallelFor& parallel)
+namespace {
+
+/// Contrasts within the first of these many standard deviations of the noise are noise, and those beyond the second
+/// clearly are not. Measured on noise alone, the contrast of half of the splits is below 3, of nine in ten below 4.9 and of
+/// 99 in 100 below 9.8, and that hardly changes from the finest level to where vertices stand for 16 pixels: a height
+/// field keeps the peaks of its noise. From there on it falls, to half at some hundred pixels.
+constexpr float kNoise = 3.7f, kClearlyMore = 8.0f, kPeaks = 16.0f;
+
+/// The share of the noise of a pixel that is in the vertices of each split, by the number of pixels that the smaller of
+/// them stands for.
+std::vector<float> noise_shares(const SweepPlan& plan)
+{
+    std::vector<float> shares(plan.levels()), pixels(plan.places(), 1.0f);
+    for (Level i = plan.levels(); i-- > 0;) {
+        const PlannedSplit k = plan.split(i);
+        shares[i] = std::min(std::sqrt(std::sqrt(kPeaks / std::min(pixels[k.s], pixels[k.u]))), 1.0f);
+        pixels[k.s] += pixels[k.u];
+    }
+    return shares;
+}
+
+float visibility(float contrast, float noise)
+{
+    const float share = std::clamp((contrast - kNoise * noise) / ((kClearlyMore - kNoise) * noise), 0.0f, 1.0f);
+    return share * share * (3.0f - 2.0f * share);
+}
+
+}  // namespace
+
+Envelope contrast_envelope(const PlannedBands& bands, const EnvelopeOptions& options, const ParallelFor& parallel)
 {
     const SweepPlan& plan = bands.plan;
-    std::vector<float> envelope(plan.levels()), values(plan.places());
-    std::vector<float> contrast(plan.places(), range);  // of the vertices, as far as they exist
+    const NoiseTable noise(options.noise);
+    Envelope envelope;
+    envelope.contrast.resize(plan.levels());
+    if (!options.noise.none())
+        envelope.visibility = noise_shares(plan);
+    std::vector<float> values(plan.places());
+    std::vector<float> contrast(plan.places(), options.range);  // of the vertices, as far as they exist
     plan.set_base(bands.base, 1.0f, values.data());
     plan.for_splits(parallel, [&](Level first, Level last) {
         plan.sweep(first, last, values.data(), [&](Level i) {
@@ -31,24 +64,30 @@ std::vector<float> contrast_envelope(const PlannedBands& bands, float coherence,
             const float s = contrast[k.s];
             const float t = s + k.wat * (contrast[k.at] - s) + k.wbt * (contrast[k.bt] - s);
             const float u = s + k.wau * (contrast[k.au] - s) + k.wbu * (contrast[k.bu] - s);
-            envelope[i] = own + coherence * (0.5f * (t + u) - own);
-            contrast[k.s] = contrast[k.u] = envelope[i];
+            const float e = own + options.coherence * (0.5f * (t + u) - own);
+            envelope.contrast[i] = contrast[k.s] = contrast[k.u] = e;
+            if (!envelope.visibility.empty())
+                envelope.visibility[i] = visibility(own, envelope.visibility[i] * noise.at(values[k.s]));
             return d;
         });
     });
     return envelope;
 }
 
-void compress(const PlannedBands& bands, const DetailGain& gain, const std::vector<float>* envelope,
-              const ParallelFor& parallel, float* values)
+void compress(const PlannedBands& bands, const DetailGain& gain, const Envelope* envelope, const ParallelFor& parallel,
+              float* values)
 {
+    const float* contrasts = envelope != nullptr ? envelope->contrast.data() : nullptr;
+    const float* visibilities =
+        envelope != nullptr && !envelope->visibility.empty() ? envelope->visibility.data() : nullptr;
     bands.plan.set_base(bands.base, gain.s0, values);
     bands.plan.for_splits(parallel, [&](Level first, Level last) {
         constexpr Level kBatch = 512;  // of compressed details, between the vectors and the sweep
         Detail compressed[kBatch];
         for (Level begin = first, end; begin < last; begin = end) {
             end = std::min(begin + kBatch, last);
-            gain.apply(&bands.details[begin], envelope ? &(*envelope)[begin] : nullptr, end - begin, compressed);
+            gain.apply(&bands.details[begin], contrasts ? contrasts + begin : nullptr,
+                       visibilities ? visibilities + begin : nullptr, end - begin, compressed);
             bands.plan.sweep(begin, end, values, [&](Level i) { return compressed[i - begin]; });
         }
     });

@@ -8,6 +8,7 @@
 #include <pimg/detail/sweep_plan.h>
 
 #include "source/detail_gain.h"
+#include "source/samples/noise.h"
 
 namespace pimg {
 
@@ -20,11 +21,28 @@ struct PlannedBands {
     PlannedBands(SweepPlan&& plan, const Bands& bands, const ParallelFor& parallel);
 };
 
-/// For every split, in the order of the plan, the contrast its details belong to:
+/// What decides the gain of every split, in the order of the plan.
+struct Envelope {
+    std::vector<float> contrast;    ///< the contrast that the details of the split belong to
+    std::vector<float> visibility;  ///< 0: no more than noise, 1: clearly more; empty: all are 1
+};
+
+/// How an Envelope is made.
+struct EnvelopeOptions {
+    float coherence = 0.75f;  ///< share of the contrast that is inherited
+    float range = 0.0f;       ///< contrast that the base mesh has: the dynamic range of the picture, in guide units
+    NoiseModel noise;         ///< of the samples
+
+    bool operator==(const EnvelopeOptions& other) const
+    {
+        return coherence == other.coherence && range == other.range && noise == other.noise;
+    }
+};
+
+/// The contrast of a split is
 ///     e = coherence * inherited + (1 - coherence) * own
 /// own: the larger of the two details and of the span of the coarser mesh's values at the stencils' vertices.
-/// inherited: what the splits that made those vertices had, by the weights the details are predicted with; the base
-/// mesh has `range`, the dynamic range of the picture.
+/// inherited: what the splits that made those vertices had, by the weights the details are predicted with.
 ///
 /// Why own is not just the detail: a step edge is made of large details and of many small ones that correct the slopes
 /// the coarse mesh had beside it. Eq. (2) on each detail's own size compresses the step, but not the corrections, which
@@ -32,13 +50,14 @@ struct PlannedBands {
 /// face is as compressed as the face itself, and the texture on a plateau, whose faces are flat, is left alone.
 /// Why anything is inherited: the mesh of a coarse level is one of many that would do as well, and a gain that follows
 /// its accidents makes pictures that differ by one pixel, or by a scale, come out visibly different far away.
-std::vector<float> contrast_envelope(const PlannedBands& bands, float coherence, float range,
-                                     const ParallelFor& parallel);
+///
+/// Its visibility compares its own contrast with the noise there.
+Envelope contrast_envelope(const PlannedBands& bands, const EnvelopeOptions& options, const ParallelFor& parallel);
 
 /// The compressed bands at the finest level, in the places of the plan: the base scaled by gain.s0, both details of a
-/// split by the gain of its contrast in the envelope, or each by that of its own size if there is none.
-void compress(const PlannedBands& bands, const DetailGain& gain, const std::vector<float>* envelope,
-              const ParallelFor& parallel, float* values);
+/// split by the gain of its contrast and visibility, or each by that of its own size if there is no envelope.
+void compress(const PlannedBands& bands, const DetailGain& gain, const Envelope* envelope, const ParallelFor& parallel,
+              float* values);
 
 /// Adds the compressed residual to the compressed finest mesh: by the gain of its own size, or of `coherence` times the
 /// span of its face if that is larger. Both rasters are of the picture's size; nothing to do without a residual.

@@ -33,16 +33,23 @@ public:
     {
     }
 
-    HWY_INLINE Vector operator()(Vector contrast) const
+    HWY_INLINE Vector operator()(Vector contrast) const { return between(contrast, set(m_gain.detail)); }
+
+    HWY_INLINE Vector operator()(Vector contrast, Vector visibility) const
     {
-        const Lanes d;
-        const Vector share = hn::Min(contrast / hn::Set(d, m_gain.dmax), hn::Set(d, 1.0f));
-        const Vector rest = hn::Set(d, 1.0f) - share;
-        const Vector raised = m_is_whole ? whole_power(rest, unsigned(m_gain.beta)) : power(rest, m_gain.beta);
-        return hn::Set(d, m_gain.s0) + hn::Set(d, 1.0f - m_gain.s0) * raised;
+        return between(contrast, set(m_gain.quiet) + visibility * set(m_gain.detail - m_gain.quiet));
     }
 
 private:
+    static HWY_INLINE Vector set(float value) { return hn::Set(Lanes(), value); }
+
+    HWY_INLINE Vector between(Vector contrast, Vector of_smallest) const
+    {
+        const Vector rest = set(1.0f) - hn::Min(contrast / set(m_gain.dmax), set(1.0f));
+        const Vector raised = m_is_whole ? whole_power(rest, unsigned(m_gain.beta)) : power(rest, m_gain.beta);
+        return set(m_gain.s0) + (of_smallest - set(m_gain.s0)) * raised;
+    }
+
     DetailGain m_gain;
     bool m_is_whole;
 };
@@ -54,13 +61,14 @@ void gains_of(const DetailGain& parameters, float* contrasts, std::size_t count)
 }
 
 /// Both numbers of a detail at once: a vector of gains goes with two of details.
-void compress_by_contrast(const DetailGain& parameters, const float* details, const float* contrasts, std::size_t count,
-                          float* compressed)
+void compress_by_contrast(const DetailGain& parameters, const float* details, const float* contrasts,
+                          const float* visibilities, std::size_t count, float* compressed)
 {
     const Lanes d;
     const Gain gain(parameters);
     for_vectors(count, [&](std::size_t i, std::size_t n) {
-        const Vector g = gain(load(contrasts + i, n));
+        const Vector contrast = load(contrasts + i, n);
+        const Vector g = visibilities != nullptr ? gain(contrast, load(visibilities + i, n)) : gain(contrast);
         HWY_ALIGN float twice[2 * 8];
         hn::StoreInterleaved2(g, g, d, twice);
         for_vectors(2 * n, [&](std::size_t k, std::size_t lanes) {
@@ -96,12 +104,13 @@ void DetailGain::apply(float* contrasts, std::size_t count) const
     HWY_DYNAMIC_DISPATCH(gains_of)(*this, contrasts, count);
 }
 
-void DetailGain::apply(const Detail* details, const float* contrasts, std::size_t count, Detail* compressed) const
+void DetailGain::apply(const Detail* details, const float* contrasts, const float* visibilities, std::size_t count,
+                       Detail* compressed) const
 {
     const float* from = &details->t;
     float* to = &compressed->t;
     if (contrasts != nullptr)
-        HWY_DYNAMIC_DISPATCH(compress_by_contrast)(*this, from, contrasts, count, to);
+        HWY_DYNAMIC_DISPATCH(compress_by_contrast)(*this, from, contrasts, visibilities, count, to);
     else
         HWY_DYNAMIC_DISPATCH(compress_by_size)(*this, from, count, to);
 }

@@ -8,16 +8,22 @@
 
 namespace pimg {
 
-/// h(d) = s0 + (1 - s0) (1 - d / dmax)^beta; details beyond dmax take s0.
+/// The gain of a detail that belongs to a contrast c, Eq. (2) of the paper but for the gain of the smallest details:
+///     h(c) = s0 + (g - s0) (1 - c / dmax)^beta,   s0 from dmax on
+///     g    = quiet + visibility (detail - quiet)
+/// Visibility is 0 where a detail is noise and 1 where it is not. With detail = 1 and no noise this is Eq. (2).
 struct DetailGain {
     float s0, beta, dmax;
+    float detail = 1.0f;  ///< gain of the smallest details
+    float quiet = 1.0f;   ///< gain of noise
 
-    /// Turns `count` contrasts into their gains.
+    /// Turns `count` contrasts into their gains, all visible.
     void apply(float* contrasts, std::size_t count) const;
 
-    /// Multiplies `count` details by the gains of their contrasts, or, without contrasts, each t and u by that of its
-    /// own size.
-    void apply(const Detail* details, const float* contrasts, std::size_t count, Detail* compressed) const;
+    /// Multiplies `count` details by the gains of their contrasts and visibilities. Without visibilities all are visible;
+    /// without contrasts each t and u has the gain of its own size.
+    void apply(const Detail* details, const float* contrasts, const float* visibilities, std::size_t count,
+               Detail* compressed) const;
 };
 
 }  // namespace pimg

@@ -9,6 +9,8 @@
 
 #include <pimg/detail/parallel.h>
 
+#include "source/samples/ringing.h"
+
 namespace pimg {
 
 namespace {
@@ -257,6 +259,10 @@ LogLuminance log_luminance(const OIIO::ImageBuf& picture, const Colour& colour, 
     std::vector<Index> holes;
     result.guide = linear_luminance(picture, colour, parallel, holes);
     std::vector<float>& samples = result.guide.samples;
+    result.filled = find_ringing(picture, colour, result.guide, parallel);
+    for (const FilledPixel& filled : result.filled)
+        samples[filled.pixel] = colour.luminance(filled.rgb.data());
+    holes.erase(std::remove_if(holes.begin(), holes.end(), [&](Index i) { return samples[i] > 0.0f; }), holes.end());
     const MagnitudeHistogram histogram(samples);
     const float middle = histogram.quantile(0.5);
     if (middle == 0.0f) {  // nothing but black

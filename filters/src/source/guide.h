@@ -3,6 +3,7 @@
 // for samples that have none. The rule is stated in progressive_image.h.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -46,11 +47,18 @@ private:
     std::uint64_t m_count = 0;
 };
 
+/// A pixel whose light is not the scene's, and the light it is shown with instead; see ringing.h.
+struct FilledPixel {
+    Index pixel;
+    std::array<float, 3> rgb;  ///< linear
+};
+
 /// log2 luminance of every pixel, in guide units, relative to `reference`, a power of two near the middle.
 struct LogLuminance {
     Raster guide;
     float reference = 1.0f;  ///< luminance at guide value 0
     float floor = 0.0f;      ///< guide value of everything as dark as black
+    std::vector<FilledPixel> filled;  ///< by pixel
 };
 
 LogLuminance log_luminance(const OIIO::ImageBuf& picture, const Colour& colour, const ParallelFor& parallel);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include <pimg/colour.h>
 #include <pimg/simplify.h>
@@ -14,9 +16,12 @@ namespace pimg {
 
 namespace {
 
-constexpr int kCells = 64;                ///< on the longer side
-constexpr double kRangeQuantile = 0.003;  ///< left out at each end of the dynamic range
-constexpr float kAboveBlack = 0.01f;      ///< guide units
+constexpr int kCells = 64;                            ///< on the longer side
+constexpr double kRangeQuantile = 0.003;              ///< left out at each end of the dynamic range
+constexpr float kAboveBlack = 0.01f;                  ///< guide units
+constexpr float kLamp = 1.0f * kUnitsPerStop;         ///< how far a single pixel may outshine those around it
+constexpr float kClearStep = 0.002f * kUnitsPerStop;  ///< between cells that are not one tone, such as those of a sky
+constexpr float kLeastWeight = 0.01f;  ///< of what has one tone: pictures of nothing else have an exposure, too
 
 /// Calls body(i, weight) for the samples that cell number `cell` of `cells` covers, wholly or in part.
 template<class Body>
@@ -39,6 +44,30 @@ Raster grid_for(const Raster& picture)
     return grid;
 }
 
+/// The samples of a row, but for single bright pixels, which are no brighter than a lamp beside the second brightest
+/// around them: a firefly or a hot pixel says nothing of the scene, and one of them outshines a whole cell.
+void take_row(const Raster& log, int y, std::vector<float>& row)
+{
+    const int width = log.width;
+    const auto sample = [&](int x, int at) {
+        return log.samples[std::size_t(at) * std::size_t(width) + std::size_t(x)];
+    };
+    for (int x = 0; x < width; ++x) {
+        const float here = row[std::size_t(x)] = sample(x, y);
+        if (here <= std::min(sample(std::max(x - 1, 0), y), sample(std::min(x + 1, width - 1), y)) + kLamp)
+            continue;
+        float first = -std::numeric_limits<float>::max(), second = first;
+        for (int j = std::max(y - 1, 0); j < std::min(y + 2, log.height); ++j)
+            for (int i = std::max(x - 1, 0); i < std::min(x + 2, width); ++i)
+                if (j != y || i != x) {
+                    second = std::max(second, std::min(first, sample(i, j)));
+                    first = std::max(first, sample(i, j));
+                }
+        row[std::size_t(x)] = std::min(here, std::max(second, first - kLamp) + kLamp);
+    }
+}
+
+/// log2 of the mean luminance of the cells, in guide units.
 Raster mean_luminance(const Raster& log, const ParallelFor& parallel)
 {
     Raster means = grid_for(log);
@@ -47,9 +76,9 @@ Raster mean_luminance(const Raster& log, const ParallelFor& parallel)
     for_rows(parallel, 0, means.height, [&](int row) {
         std::vector<float> light(count), sum(count);
         for_covered(row, means.height, log.height, [&](int y, float weight) {
-            const float* samples = &log.samples[std::size_t(y) * count];
-            for (std::size_t x = 0; x < count; ++x)
-                light[x] = samples[x] / kUnitsPerStop;
+            take_row(log, y, light);
+            for (float& value : light)
+                value /= kUnitsPerStop;
             exp2_in_place(light.data(), count);
             for (std::size_t x = 0; x < count; ++x)
                 sum[x] += weight * light[x];
@@ -64,19 +93,40 @@ Raster mean_luminance(const Raster& log, const ParallelFor& parallel)
     return means;
 }
 
+/// How much each cell says of the scene: little where nothing differs, as in a border of one tone.
+std::vector<float> weights_of(const Raster& means, const std::vector<char>& lit)
+{
+    std::vector<float> weights(means.samples.size(), kLeastWeight);
+    for (int y = 0; y < means.height; ++y)
+        for (int x = 0; x < means.width; ++x) {
+            const std::size_t at = std::size_t(y * means.width + x);
+            float largest = 0.0f, step = 0.0f;  // the second largest: one is the edge of something that has one tone
+            for (const auto& [i, j] : { std::pair(x - 1, y), { x + 1, y }, { x, y - 1 }, { x, y + 1 } }) {
+                const std::size_t other = std::size_t(j * means.width + i);
+                if (i < 0 || i >= means.width || j < 0 || j >= means.height || !lit[other])
+                    continue;
+                const float here = std::fabs(means.samples[at] - means.samples[other]);
+                step = std::max(step, std::min(largest, here));
+                largest = std::max(largest, here);
+            }
+            weights[at] = std::clamp(step / kClearStep, kLeastWeight, 1.0f);
+        }
+    return weights;
+}
+
 }  // namespace
 
 Status look_from_afar(const LogLuminance& luminance, const ParallelFor& parallel, Overview& overview)
 {
     const Raster means = mean_luminance(luminance.guide, parallel);
     overview.log = means.samples;
-    std::vector<float> lit;
-    for (const float value : overview.log) {
+    for (const float value : overview.log)
         overview.lit.push_back(value > luminance.floor + kAboveBlack);
-        if (overview.lit.back())
-            lit.push_back(value);
-    }
-    std::sort(lit.begin(), lit.end());
+    overview.weight = weights_of(means, overview.lit);
+    std::vector<Weighted> lit;
+    for (std::size_t i = 0; i < overview.log.size(); ++i)
+        if (overview.lit[i])
+            lit.push_back({ overview.log[i], overview.weight[i] * overview.weight[i] });
     overview.range = quantile(lit, 1.0 - kRangeQuantile) - quantile(lit, kRangeQuantile);
 
     SimplifyOptions options;
@@ -89,14 +139,29 @@ Status look_from_afar(const LogLuminance& luminance, const ParallelFor& parallel
     return status;
 }
 
-float quantile(const std::vector<float>& sorted, double q)
+float quantile(std::vector<Weighted>& numbers, double q)
 {
-    if (sorted.empty())
+    if (numbers.empty())
         return 0.0f;
-    const double at = q * double(sorted.size() - 1);
-    const std::size_t i = std::size_t(at);
-    const float next = sorted[std::min(i + 1, sorted.size() - 1)];
-    return sorted[i] + float(at - double(i)) * (next - sorted[i]);
+    std::sort(numbers.begin(), numbers.end(), [](const Weighted& a, const Weighted& b) {
+        return a.value != b.value ? a.value < b.value : a.weight < b.weight;
+    });
+    double total = 0.0;
+    for (const Weighted& number : numbers)
+        total += double(number.weight);
+    // Each number stands at the middle of its weight.
+    const double wanted = q * total;
+    double before = 0.0;
+    for (std::size_t i = 0; i + 1 < numbers.size(); ++i) {
+        const double here = before + 0.5 * double(numbers[i].weight);
+        before += double(numbers[i].weight);
+        const double next = before + 0.5 * double(numbers[i + 1].weight);
+        if (wanted < next) {
+            const double share = std::clamp((wanted - here) / std::max(next - here, 1e-12), 0.0, 1.0);
+            return numbers[i].value + float(share) * (numbers[i + 1].value - numbers[i].value);
+        }
+    }
+    return numbers.back().value;
 }
 
 }  // namespace pimg

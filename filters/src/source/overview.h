@@ -15,16 +15,22 @@
 namespace pimg {
 
 struct Overview {
-    std::vector<float> log;  ///< log2 of the mean luminance in every cell of a coarse grid, in guide units
-    std::vector<char> lit;   ///< whether a cell is not black, which says nothing of the light
-    float range = 0.0f;      ///< dynamic range of the lit cells, in guide units
-    Hierarchy hierarchy;     ///< of the cells
+    std::vector<float> log;     ///< log2 of the mean luminance in every cell of a coarse grid, in guide units
+    std::vector<char> lit;      ///< whether a cell is not black, which says nothing of the light
+    std::vector<float> weight;  ///< how much a cell says of the scene: little where nothing is but one tone and noise
+    float range = 0.0f;         ///< dynamic range of the lit cells, in guide units
+    Hierarchy hierarchy;        ///< of the cells
     std::unique_ptr<PlannedBands> bands;
 };
 
 Status look_from_afar(const LogLuminance& luminance, const ParallelFor& parallel, Overview& overview);
 
-/// The number at a quantile, 0..1, of sorted ones; 0 if there are none.
-float quantile(const std::vector<float>& sorted, double q);
+/// A number and how much it counts.
+struct Weighted {
+    float value, weight;
+};
+
+/// The number at a quantile, 0..1, by weight; 0 if there are none. Sorts `numbers`.
+float quantile(std::vector<Weighted>& numbers, double q);
 
 }  // namespace pimg

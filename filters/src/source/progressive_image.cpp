@@ -186,6 +186,7 @@ bool ProgressiveImage::Data::hierarchy_of_guide(const MakeHierarchy& make_hierar
     stats.simplify_seconds = watch.lap() - stats.sample_seconds;
     if (m_log != nullptr && status) {
         m_log->luminance.guide = std::move(channels[0]);
+        m_log->noise = estimate_noise(m_log->luminance, parallel);
         m_log->bands = &guide_bands[0];
     }
     return status.ok();
@@ -251,6 +252,7 @@ const LogBands* ProgressiveImage::Data::log_bands(const ParallelFor& parallel, s
     if (!status)
         return nullptr;
     m_log_bands = std::move(bands[0]);
+    log->noise = estimate_noise(log->luminance, parallel);
     log->bands = &m_log_bands;
     m_log = std::move(log);
     return m_log.get();
@@ -328,16 +330,15 @@ const Overview* ProgressiveImage::Data::overview(const ParallelFor& parallel, st
     return m_overview.get();
 }
 
-std::shared_ptr<const std::vector<float>> ProgressiveImage::Data::envelope(
-    const std::shared_ptr<const PlannedBands>& planned, float coherence, float range, const ParallelFor& parallel)
+std::shared_ptr<const Envelope> ProgressiveImage::Data::envelope(const std::shared_ptr<const PlannedBands>& planned,
+                                                                 const EnvelopeOptions& how,
+                                                                 const ParallelFor& parallel)
 {
     std::lock_guard<std::mutex> lock(m_mutex);
-    if (m_envelope_bands != planned || m_envelope_coherence != coherence || m_envelope_range != range) {
-        m_envelope =
-            std::make_shared<const std::vector<float>>(contrast_envelope(*planned, coherence, range, parallel));
+    if (m_envelope_bands != planned || !(m_envelope_options == how)) {
+        m_envelope = std::make_shared<const Envelope>(contrast_envelope(*planned, how, parallel));
         m_envelope_bands = planned;
-        m_envelope_coherence = coherence;
-        m_envelope_range = range;
+        m_envelope_options = how;
     }
     return m_envelope;
 }
@@ -382,7 +383,7 @@ std::size_t ProgressiveImage::Data::memory()
     for (const std::vector<float>& scratch : m_scratch)
         total += scratch.capacity() * sizeof(float);
     if (m_envelope != nullptr)
-        total += m_envelope->capacity() * sizeof(float);
+        total += (m_envelope->contrast.capacity() + m_envelope->visibility.capacity()) * sizeof(float);
     return total;
 }
 

@@ -21,6 +21,7 @@ namespace pimg {
 /// Bands of log luminance, whatever the guide was.
 struct LogBands {
     LogLuminance luminance;
+    NoiseModel noise;
     const Bands* bands = nullptr;
 };
 
@@ -56,8 +57,8 @@ struct ProgressiveImage::Data {
     const Overview* overview(const ParallelFor& parallel, std::string& error);
 
     /// See contrast_envelope(). Kept for what it was last asked for.
-    std::shared_ptr<const std::vector<float>> envelope(const std::shared_ptr<const PlannedBands>& planned,
-                                                       float coherence, float range, const ParallelFor& parallel);
+    std::shared_ptr<const Envelope> envelope(const std::shared_ptr<const PlannedBands>& planned,
+                                             const EnvelopeOptions& how, const ParallelFor& parallel);
 
     /// A vector that held a raster before, if one is left: new memory would have to be cleared for every new setting.
     std::vector<float> take_scratch();
@@ -91,8 +92,8 @@ private:
     int m_log_sweeps = 0;
     std::unique_ptr<Overview> m_overview;
     std::shared_ptr<const PlannedBands> m_envelope_bands;
-    float m_envelope_coherence = -1.0f, m_envelope_range = 0.0f;
-    std::shared_ptr<const std::vector<float>> m_envelope;
+    EnvelopeOptions m_envelope_options;
+    std::shared_ptr<const Envelope> m_envelope;
     std::shared_ptr<const RegionTree> m_regions;
     std::vector<std::vector<float>> m_scratch;
 };

@@ -108,7 +108,7 @@ TEST(FilterVectors, CompressedDetails)
         const auto make = [&](std::size_t first, std::size_t count) {
             std::vector<float> y(2 * count);
             std::vector<Detail> compressed(count);
-            gain.apply(&details[first], by ? by + first : nullptr, count, compressed.data());
+            gain.apply(&details[first], by ? by + first : nullptr, nullptr, count, compressed.data());
             std::memcpy(y.data(), compressed.data(), y.size() * sizeof(float));
             return y;
         };
@@ -151,7 +151,7 @@ protected:
 TEST_F(Recolouring, FitsTheDisplay)
 {
     for (const float saturation : { 1.0f, 0.7f }) {
-        const Recolour how { colour.weights(), 0.1f, -2.0f, saturation, true, Shoulder(4.0f) };
+        const Recolour how { colour.weights(), 0.1f, -2.0f, saturation, true, ToneCurve(0.05f, 4.0f), 0.01f, 0.02f };
         expect_same_bits([&](std::size_t first, std::size_t count) { return make(how, first, count); });
         for (const float v : make(how, 0, kCount)) {
             EXPECT_GE(v, 0.0f);
@@ -162,7 +162,7 @@ TEST_F(Recolouring, FitsTheDisplay)
 
 TEST_F(Recolouring, OnlyScalesIfNotFitted)
 {
-    const Recolour how { colour.weights(), 0.1f, -2.0f, 1.0f, false, Shoulder(1.0f) };
+    const Recolour how { colour.weights(), 0.1f, -2.0f, 1.0f, false, ToneCurve(0.0f, 1.0f), 0.0f, 0.0f };
     expect_same_bits([&](std::size_t first, std::size_t count) { return make(how, first, count); });
     const std::vector<float> y = make(how, 0, kCount);
     for (std::size_t i = 0; i < kCount; ++i) {
@@ -176,14 +176,14 @@ TEST_F(Recolouring, OnlyScalesIfNotFitted)
 
 TEST_F(Recolouring, HasTheLuminanceOfTheCurve)
 {
-    const Shoulder shoulder(4.0f);
-    const Recolour how { colour.weights(), 0.1f, -2.0f, 1.0f, true, shoulder };
+    const ToneCurve curve(0.05f, 4.0f);
+    const Recolour how { colour.weights(), 0.1f, -2.0f, 1.0f, true, curve, 0.0f, 0.0f };
     const std::vector<float> y = make(how, 0, kCount);
     for (std::size_t i = 0; i < kCount; ++i) {
         if (i % 5 == 0 || i % 7 == 0 || i % 11 == 0)
             continue;  // black, out of gamut, huge
         float stops = std::log2(colour.luminance(&rgb[3 * i])) + 0.1f * compressed[i] - guide[i] / kUnitsPerStop - 2.0f;
-        lightness_in_place(shoulder, &stops, 1);
+        lightness_in_place(curve, &stops, 1);
         EXPECT_NEAR(std::cbrt(colour.luminance(&y[3 * i])), stops, 2e-5f);
     }
 }
@@ -191,19 +191,41 @@ TEST_F(Recolouring, HasTheLuminanceOfTheCurve)
 TEST(FilterVectors, LightnessRisesToOne)
 {
     const std::vector<float> stops = numbers(-20.0f, 5.0f, 9);
-    const Shoulder shoulder(4.0f);
-    const std::vector<float> y = checked(stops, [&](float* v, std::size_t n) { lightness_in_place(shoulder, v, n); });
+    const ToneCurve curve(0.0f, 4.0f);
+    const std::vector<float> y = checked(stops, [&](float* v, std::size_t n) { lightness_in_place(curve, v, n); });
     for (std::size_t i = 0; i < kCount; ++i) {
         const float luminance = std::exp2(stops[i]);
-        if (luminance <= Shoulder::kKnee) {
+        if (luminance <= ToneCurve::kKnee) {
             EXPECT_NEAR(y[i], std::cbrt(luminance), 1e-6f);
         } else {
-            EXPECT_GT(y[i], std::cbrt(Shoulder::kKnee) - 1e-6f);
+            EXPECT_GT(y[i], std::cbrt(ToneCurve::kKnee) - 1e-6f);
         }
         if (luminance >= 4.0f) {
             EXPECT_NEAR(y[i], 1.0f, 1e-6f);
         }
     }
+}
+
+TEST(FilterVectors, ToeSubtractsHaze)
+{
+    std::vector<float> y = { std::log2(0.2f), std::log2(0.02f), -30.0f };
+    lightness_in_place(ToneCurve(0.05f, 4.0f), y.data(), y.size());
+    EXPECT_NEAR(y[0] * y[0] * y[0], 0.2f * 0.2f / 0.25f, 1e-5f);
+    EXPECT_NEAR(y[1] * y[1] * y[1], 0.02f * 0.02f / 0.07f, 1e-5f);
+    EXPECT_NEAR(y[2], 0.0f, 1e-5f);
+}
+
+/// Details that are noise have the gain `quiet`, and clear ones the gain `detail`.
+TEST(FilterVectors, NoiseIsNotAmplified)
+{
+    const DetailGain gain { 0.2f, 2.0f, 20.0f, 4.0f, 0.5f };
+    const std::vector<Detail> details(3, { 1.0f, -2.0f });
+    const float contrasts[] = { 0.0f, 0.0f, 20.0f }, visibilities[] = { 0.0f, 1.0f, 1.0f };
+    std::vector<Detail> compressed(3);
+    gain.apply(details.data(), contrasts, visibilities, 3, compressed.data());
+    EXPECT_NEAR(compressed[0].t, 0.5f, 1e-6f);
+    EXPECT_NEAR(compressed[1].u, -8.0f, 1e-6f);
+    EXPECT_NEAR(compressed[2].t, 0.2f, 1e-6f);
 }
 
 }  // namespace
