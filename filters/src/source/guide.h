@@ -56,8 +56,8 @@ struct FilledPixel {
 /// log2 luminance of every pixel, in guide units, relative to `reference`, a power of two near the middle.
 struct LogLuminance {
     Raster guide;
-    float reference = 1.0f;  ///< luminance at guide value 0
-    float floor = 0.0f;      ///< guide value of everything as dark as black
+    float reference = 1.0f;           ///< luminance at guide value 0
+    float floor = 0.0f;               ///< guide value of everything as dark as black
     std::vector<FilledPixel> filled;  ///< by pixel
 };
 
