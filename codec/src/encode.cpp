@@ -5,6 +5,7 @@
 
 #include <pimg/codec.h>
 #include <pimg/detail/parallel.h>
+#include <pimg/detail/rec709.h>
 #include <pimg/simplify.h>
 
 #include "container.h"
@@ -49,14 +50,16 @@ private:
     const Hierarchy* m_hierarchy = nullptr;
 };
 
-/// Weighted sum of the first three channels, or the first: what the built-in guide and the diagonals look at.
+/// The luma of the picture: a weighted sum of the first three channels, or else the first channel. The built-in guide
+/// and the choice of diagonals use it.
 std::vector<float> luma(const PictureDesc& desc, const Integers& integers)
 {
     std::vector<float> z(integers.channels[0].begin(), integers.channels[0].end());
     const auto& c = desc.channels;
+    const auto [r, g, b] = elementary::kRec709Weights;
     if (c.size() >= 3 && c[0].type == c[1].type && c[0].type == c[2].type)
         for (std::size_t i = 0; i < z.size(); ++i)
-            z[i] = 0.2126f * z[i] + 0.7152f * float(integers.channels[1][i]) + 0.0722f * float(integers.channels[2][i]);
+            z[i] = r * z[i] + g * float(integers.channels[1][i]) + b * float(integers.channels[2][i]);
     // The bulk of the values gets the range of an 8-bit picture; what lies far outside is cut off.
     std::vector<float> some;
     for (std::size_t i = 0; i < z.size(); i += 1 + z.size() / 4096)
@@ -130,8 +133,8 @@ Status Encoder::build_hierarchy()
     return status;
 }
 
-/// A hierarchy is stored as it is, but for a single 8-bit channel, where its positions would take more than the
-/// picture: these go to 1/16 pixel.
+/// Positions are stored exactly, except for a picture of a single 8-bit channel, where they would take more bytes than
+/// the samples: there they are rounded to 1/16 pixel.
 std::uint32_t Encoder::lattice_shift() const
 {
     if (m_options.lattice_shift >= 0)
@@ -144,7 +147,7 @@ Status Encoder::make_mesh_layer(MeshLayerChunks& chunks)
     const double vertices = double(m_options.vertices) * double(m_hierarchy->mesh_pixels());
     const Level count = m_hierarchy->level_of_vertices(vertices);
     std::vector<Bands> all;
-    constexpr std::size_t kAtOnce = 4;  // RGBA in one go; more channels would need more memory for each
+    constexpr std::size_t kAtOnce = 4;  // channels analysed together, such as RGBA; each more takes more memory
     for (std::size_t first = 0; first < m_desc.channels.size(); first += kAtOnce) {
         std::vector<std::vector<float>> values;
         std::vector<const float*> pointers;
@@ -169,7 +172,8 @@ Status Encoder::make_mesh_layer(MeshLayerChunks& chunks)
             all.push_back(std::move(b));
         }
     }
-    // A reader refuses triangles as thin as no picture makes them; the coarser mesh of fewer vertices has none.
+    // Readers refuse meshes whose triangles are thinner than pictures make them. With fewer vertices the mesh is
+    // coarser and has none of these.
     for (double most = vertices;; most /= 4.0) {
         chunks = {};
         const Status status = write_mesh_layer(*m_hierarchy, all, most, chunks);
@@ -181,12 +185,12 @@ Status Encoder::make_mesh_layer(MeshLayerChunks& chunks)
     }
 }
 
-/// A predictor with the mesh layer must save one part in this many of a tile's bytes, since the reader has to show the layer
-/// for it. Without the condition the tiles of four pictures take 0.7 % less at most. At effort 2, which asks for the
-/// smallest file, almost any saving will do.
+/// A predictor with the mesh layer must save one part in this many of a tile's bytes, since the reader has to show the
+/// layer for it. Without the condition the tiles of four pictures take 0.7 % less at most. At effort 2, which asks for
+/// the smallest file, almost any saving will do.
 constexpr std::uint64_t kSavedPart = 25, kLittleSavedPart = 500;
 
-/// The best predictor by estimate. One that needs the mesh layer must earn what showing it costs the reader.
+/// The predictor with the smallest estimated size. One that needs the mesh layer must save enough, see kSavedPart.
 TilePredictor choose_predictor(const TileChannel& channel, int effort)
 {
     TilePredictor best;

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include <pimg/detail/elementary.h>
+#include <pimg/detail/rec709.h>
 
 #include "linear_axis.h"
 
@@ -13,8 +13,8 @@ namespace pimg {
 
 namespace {
 
-/// Rec. 709 luminance, for maps of one channel: the sum of the channels in a ratio that all primaries of displays are near.
-constexpr std::array<float, 3> kLuminance { 0.2126f, 0.7152f, 0.0722f };
+/// The weights of luminance in maps of one channel. All primaries of displays are near to those of Rec. 709.
+constexpr const std::array<float, 3>& kLuminance = elementary::kRec709Weights;
 
 /// The share of pixels that may be brighter than the headroom says: they are lamps and glints.
 constexpr double kHeadroomQuantile = 0.999;

@@ -11,6 +11,7 @@
 
 #include <OpenColorIO/OpenColorIO.h>
 
+#include <pimg/detail/rec709.h>
 #include <pimg/display.h>
 
 #include "colour/icc.h"
@@ -29,12 +30,10 @@ struct Colour::Decoder {
 namespace {
 
 using Weights = std::array<float, 3>;
+using elementary::kRec709Weights;
 
-/// Rec. ITU-R BT.709, as Colour has them to begin with.
-constexpr Weights kRec709Weights { 0.2126f, 0.7152f, 0.0722f };
-
-/// Matrices closer to each other than this are the same but for rounding of what configurations and files hold: a
-/// quarter of an 8-bit code.
+/// Matrices whose elements differ by less than this, half of an 8-bit code, count as the same: configurations and files
+/// hold rounded numbers.
 constexpr double kSameMatrix = 2e-3;
 
 std::string lower(std::string text)
@@ -48,7 +47,7 @@ bool is_one_of(const std::string& word, std::initializer_list<const char*> words
     return std::any_of(words.begin(), words.end(), [&](const char* w) { return word == w; });
 }
 
-/// The configuration engine-owned processors come from, whatever $OCIO says: it makes no conversion of its own.
+/// The configuration for processors made from transforms of our own, whatever $OCIO says. It adds no conversion.
 const OCIO::ConstConfigRcPtr& raw_config()
 {
     static const OCIO::ConstConfigRcPtr config = OCIO::Config::CreateRaw();
@@ -75,7 +74,8 @@ OCIO::ConstConfigRcPtr environment_config()
     return cached.second;
 }
 
-/// Applies a processor to a run of numbers, three to a pixel: OpenColorIO takes no single channels.
+/// Applies a processor to each of `count` numbers, three at a time as if they were pixels, since OpenColorIO has no
+/// pictures of one channel.
 void apply_to_scalars(const OCIO::ConstCPUProcessorRcPtr& processor, float* values, std::size_t count)
 {
     const std::size_t pixels = count / 3;
@@ -172,7 +172,7 @@ OCIO::TransformRcPtr curves(const std::array<std::vector<float>, 3>& samples)
 
 OCIO::TransformRcPtr matrix_transform(const Imath::M33d& matrix)
 {
-    const Imath::M33d m = matrix.transposed();  // OpenColorIO's act on columns
+    const Imath::M33d m = matrix.transposed();  // matrices of OpenColorIO act on columns
     const double rows[16] = { m[0][0], m[0][1], m[0][2], 0, m[1][0], m[1][1], m[1][2], 0,
                               m[2][0], m[2][1], m[2][2], 0, 0,       0,       0,       1 };
     const auto transform = OCIO::MatrixTransform::Create();
@@ -218,7 +218,7 @@ struct ColourFinder {
         colour.m_decoder = std::make_shared<Colour::Decoder>(Colour::Decoder { processor });
     }
 
-    /// Linear samples are these times Rec. 709.
+    /// Linear samples have the primaries of this matrix, which leads to Rec. 709.
     void set_matrix(const Imath::M33d& to_rec709)
     {
         Imath::M33d inverse;
@@ -243,7 +243,7 @@ struct ColourFinder {
         return true;
     }
 
-    /// Linear samples in a space of the configuration.
+    /// Samples are linear, in a space of the configuration.
     void use_linear_space(const char* name)
     {
         Imath::M33d matrix;
@@ -263,14 +263,14 @@ struct ColourFinder {
 
     bool has_scene_linear() const { return config != nullptr && config->hasRole(OCIO::ROLE_SCENE_LINEAR); }
 
-    /// Scene-linear samples: the role of that name if there is a configuration.
+    /// Samples are scene-linear: in the space of the role scene_linear if there is a configuration.
     void use_scene_linear()
     {
         if (has_scene_linear())
             use_linear_space(OCIO::ROLE_SCENE_LINEAR);
     }
 
-    /// The same for samples as they are stored.
+    /// The same, without any conversion of the stored samples.
     bool use_samples_as_scene_linear()
     {
         use_scene_linear();
@@ -278,7 +278,8 @@ struct ColourFinder {
         return true;
     }
 
-    /// Samples that `decoder` makes linear, with these primaries; in a configuration they become its scene-linear.
+    /// Samples become linear by `decoder`, with these primaries. If there is a configuration, they are then converted
+    /// to its scene-linear space.
     bool use_encoded(const OCIO::TransformRcPtr& decoder, const Chromaticities& primaries)
     {
         Imath::M33d own, working, from_rec709;
@@ -296,7 +297,7 @@ struct ColourFinder {
         return true;
     }
 
-    /// sRGB as the configuration calls it, so that its primaries are converted, too.
+    /// Samples are sRGB, by the name that the configuration has for it, so that primaries are converted, too.
     bool use_config_srgb()
     {
         for (const char* name : { "sRGB", "sRGB - Texture", "srgb_texture", "srgb_tx", "Utility - sRGB - Texture",
@@ -372,7 +373,7 @@ struct ColourFinder {
         return true;
     }
 
-    /// Pictures without three colours: the first is the luminance.
+    /// Pictures with fewer than three colour channels: the first is the luminance.
     void use_first_channel()
     {
         if (colour.m_count >= 3)
@@ -381,7 +382,7 @@ struct ColourFinder {
         colour.m_converts = false;
     }
 
-    /// An ICC profile, where the metadata say no more of the space than what files of the format are usually in.
+    /// An ICC profile counts if the metadata name no space, or only the one that files of the format usually are in.
     bool use_icc(const OIIO::ImageSpec& spec, const std::string& name)
     {
         const OIIO::ParamValue* attribute = spec.find_attribute("ICCProfile");
@@ -554,7 +555,7 @@ bool Colour::to_scene_linear(float* rgb, std::size_t count) const
         }
         return true;
     } catch (const OCIO::Exception&) {
-        return false;  // a configuration that cannot be read has been complained of
+        return false;  // `error` tells already that the configuration cannot be read
     }
 }
 

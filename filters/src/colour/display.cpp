@@ -8,6 +8,7 @@
 #include <pimg/colour.h>
 #include <pimg/detail/format.h>
 #include <pimg/detail/parallel.h>
+#include <pimg/detail/rec709.h>
 #include <pimg/threads.h>
 
 #include "base/float_copy.h"
@@ -19,10 +20,10 @@ using OIIO::ImageBuf;
 
 namespace {
 
-/// Colours are stored multiplied by alpha; the curve belongs on the colours themselves.
+/// Applies the curve of a display. Colours may be stored multiplied by alpha; the curve is for the colours without it.
 class Encoder {
 public:
-    /// `colour` tells channels and, of linear samples, primaries.
+    /// `colour` says which channels are colours and, for linear samples, what their primaries are.
     Encoder(const OIIO::ImageSpec& spec, const Colour& colour) : m_spec(spec), m_colour(colour) { }
 
     void encode(float* row) const
@@ -41,7 +42,7 @@ public:
     }
 
 private:
-    /// Calls body(x, which colour, sample, alpha or 1).
+    /// Calls body(x, number of the colour, sample, alpha or 1).
     template<class Body>
     void for_colours(float* row, Body&& body) const
     {
@@ -83,7 +84,7 @@ ImageBuf srgb_encoded(const ImageBuf& src, int nthreads, const std::string& laye
 
 double srgb_decoded(double encoded)
 {
-    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + kSrgbOffset) / (1.0 + kSrgbOffset), kSrgbGamma);
+    return std::isfinite(encoded) ? elementary::srgb_decoded(encoded) : encoded;
 }
 
 void declare_space(OIIO::ImageSpec& spec, const std::string& space)

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <utility>
 
-#include <pimg/detail/elementary.h>
 #include <pimg/detail/parallel.h>
+#include <pimg/detail/rec709.h>
 
 namespace pimg {
 
 namespace {
 
-/// CIE 15: the cube root with its linear start; above white the logarithm of the same slope.
+/// CIE 15: the cube root with its linear start. Above white it goes on as a logarithm with the same slope there.
 float lightness(float t)
 {
     constexpr float kEpsilon = 216.0f / 24389.0f, kKappa = 24389.0f / 27.0f;
@@ -22,9 +22,9 @@ float lightness(float t)
     return t > 0.0f ? (kKappa * t + 16.0f) / 116.0f : 16.0f / 116.0f;
 }
 
-/// X, Y and Z of linear RGB over those of white: Rec. 709 primaries, D65 (IEC 61966-2-1), rows made to add up to one.
+/// X and Z of linear RGB over those of white: Rec. 709 primaries, D65 (IEC 61966-2-1), rows made to add up to one. Y is
+/// the luminance.
 constexpr float kX[3] = { 0.433910f, 0.376220f, 0.189870f };
-constexpr float kY[3] = { 0.2126f, 0.7152f, 0.0722f };
 constexpr float kZ[3] = { 0.017756f, 0.109469f, 0.872775f };
 
 float dot(const float* w, const float* rgb)
@@ -66,7 +66,7 @@ std::vector<std::vector<float>> lab_channels(const OIIO::ImageBuf& picture, cons
                     lab[c][p] = 116.0f * lightness(light[c]) - 16.0f;
                 continue;
             }
-            const float fy = lightness(dot(kY, light));
+            const float fy = lightness(dot(elementary::kRec709Weights.data(), light));
             lab[0][p] = 116.0f * fy - 16.0f;
             lab[1][p] = 500.0f * (lightness(dot(kX, light)) - fy);
             lab[2][p] = 200.0f * (fy - lightness(dot(kZ, light)));

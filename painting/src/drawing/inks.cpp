@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pimg/detail/elementary.h>
+#include <pimg/detail/rec709.h>
 
 namespace pimg {
 
@@ -19,18 +19,12 @@ constexpr float kDeep = 0.8f;         ///< share of its regions' area that an in
 constexpr float kPalest = 0.6f;       ///< least distance of an ink from white: paler ones do not show as lines
 constexpr float kSame = 0.01f;        ///< squared distance of directions that need no ink of their own
 
-float decoded(float v)
-{
-    return v <= 0.04045f ? v / 12.92f : float(elementary::power((double(v) + 0.055) / 1.055, 2.4));
-}
-
 float encoded(float light)
 {
-    const float v = std::clamp(light, 0.0f, 1.0f);
-    return v <= 0.0031308f ? 12.92f * v : float(1.055 * elementary::power(double(v), 1.0 / 2.4) - 0.055);
+    return float(elementary::srgb_encoded(double(std::clamp(light, 0.0f, 1.0f))));
 }
 
-/// CIE 15, backwards.
+/// The inverse of the lightness function of CIE 15.
 float light_of(float f)
 {
     return f > 6.0f / 29.0f ? f * f * f : 3.0f * (6.0f / 29.0f) * (6.0f / 29.0f) * (f - 4.0f / 29.0f);
@@ -38,11 +32,13 @@ float light_of(float f)
 
 float lightness_of(const Colour& srgb)
 {
-    const float y = 0.2126f * decoded(srgb[0]) + 0.7152f * decoded(srgb[1]) + 0.0722f * decoded(srgb[2]);
-    return y > 216.0f / 24389.0f ? 116.0f * float(elementary::cube_root(double(y))) - 16.0f : y * (24389.0f / 27.0f);
+    float luminance = 0.0f;
+    for (std::size_t c = 0; c < 3; ++c)
+        luminance += elementary::kRec709Weights[c] * float(elementary::srgb_decoded(double(srgb[c])));
+    return elementary::lightness(luminance);
 }
 
-/// IEC 61966-2-1, with X, Y and Z over those of white.
+/// From CIELAB to encoded sRGB (IEC 61966-2-1).
 Colour srgb_of(const Colour& lab)
 {
     const float fy = (lab[0] + 16.0f) / 116.0f;
@@ -52,7 +48,7 @@ Colour srgb_of(const Colour& lab)
              encoded(0.0557f * x - 0.2040f * y + 1.0570f * z) };
 }
 
-/// A region as seen from white.
+/// The colour of a region as a direction from white and a distance.
 struct Tint {
     Colour direction;  ///< the largest of the three is 1
     float depth;       ///< how far the region is from white in that direction, 0..1
@@ -85,7 +81,7 @@ std::size_t nearest(const std::vector<Colour>& directions, const Colour& directi
     return best;
 }
 
-/// Adds the direction that matters most among those that are far from all there are; false if there is none.
+/// Adds the most important direction among those that are far from all that are chosen already; false if there is none.
 bool add_direction(const std::vector<Tint>& tints, std::vector<Colour>& directions)
 {
     float most = 0.0f;
@@ -102,7 +98,7 @@ bool add_direction(const std::vector<Tint>& tints, std::vector<Colour>& directio
     return most > 0.0f;
 }
 
-/// Moves all directions but the first, black, to the means of what is nearest to them.
+/// Moves each direction, except the first, which is black, to the mean of the tints that are nearest to it.
 void centre(const std::vector<Tint>& tints, std::vector<Colour>& directions)
 {
     for (int round = 0; round < kRounds; ++round) {
@@ -121,7 +117,7 @@ void centre(const std::vector<Tint>& tints, std::vector<Colour>& directions)
     }
 }
 
-/// The depth that the share kDeep of the area of an ink's regions stays below.
+/// The depth of an ink: the share kDeep of the area of its regions is no deeper.
 float depth_of(std::vector<std::pair<float, float>> depths_and_areas)
 {
     std::sort(depths_and_areas.begin(), depths_and_areas.end());
@@ -138,9 +134,8 @@ float depth_of(std::vector<std::pair<float, float>> depths_and_areas)
 
 InkChoice choose_inks(const std::vector<RegionColour>& regions, int count)
 {
-    std::vector<Tint> tints;
-    for (const RegionColour& region : regions)
-        tints.push_back(tint_of(region));
+    std::vector<Tint> tints(regions.size());
+    std::transform(regions.begin(), regions.end(), tints.begin(), tint_of);
     std::vector<Colour> directions { Colour { 1.0f, 1.0f, 1.0f } };
     while (int(directions.size()) < count && add_direction(tints, directions))
         centre(tints, directions);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <pimg/detail/rec709.h>
 #include <pimg/display.h>
 
 #include "render/frame.h"
@@ -12,7 +13,7 @@ namespace pimgview {
 
 namespace {
 
-/// Calls see(x, luminance) for pixels of a frame that is small enough, and returns its width.
+/// Makes a frame small enough, calls see(x, luminance) for its pixels, and returns its width.
 template<class See>
 int for_pixels(const Rendering& rendering, See&& see)
 {
@@ -34,8 +35,10 @@ int for_pixels(const Rendering& rendering, See&& see)
         const auto row = [&](std::size_t r) {
             return double(m[3 * r]) * linear[0] + double(m[3 * r + 1]) * linear[1] + double(m[3 * r + 2]) * linear[2];
         };
-        // Rec. 709's share of red, green and blue in luminance.
-        see(int(i % std::size_t(frame.width)), 0.2126 * row(0) + 0.7152 * row(1) + 0.0722 * row(2));
+        double luminance = 0.0;
+        for (std::size_t c = 0; c < 3; ++c)
+            luminance += double(pimg::elementary::kRec709Weights[c]) * row(c);
+        see(int(i % std::size_t(frame.width)), luminance);
     }
     return frame.width;
 }
