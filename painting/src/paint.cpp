@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Strokes to pixels. The canvas is cut into tiles; every tile takes the strokes that touch it in order. In a tile
-// a stroke first finds, for each pixel, the nearest point of its middle line (how far along, how far across),
-// then looks up the brush there and blends.
+// Strokes to pixels. The canvas is cut into tiles, and every tile paints the strokes that touch it in their order. For
+// each pixel of the tile a stroke finds the nearest point of its middle line, that is how far along the pixel is and
+// how far across; then it looks up the brush there and blends.
 #include <pimg/detail/parallel.h>
 #include <pimg/paint.h>
 
@@ -74,7 +74,7 @@ public:
         return shade;
     }
 
-    /// Share of a pixel paint of this shade may cover: 1 on its side of the edge, 1/2 half way across.
+    /// Share of a pixel that paint of this shade may cover: 1 on its own side of the edge, 1/2 half way across.
     float share(const Shade& shade, int x, int y) const
     {
         const float off = m_picture.distance(m_picture.pixel(x, y), shade);
@@ -125,13 +125,14 @@ private:
     const StrokePaintOptions& m_options;
     const EdgeStop* m_stop;
     Canvas& m_canvas;
-    // Per pixel of the tile: squared distance from the middle line, and where beside it; then alpha and height.
+    // Per pixel of the tile: at first the squared distance from the middle line and the place along and across it;
+    // then, see look_up(), alpha and height of the paint.
     float m_distance[kTile * kTile], m_along[kTile * kTile], m_across[kTile * kTile];
     float m_bare[kTile * kTile];  ///< share of the canvas that opaque strokes would leave
 };
 
-/// Takes over the pixels nearer to segment a -> b than to any before; m_across keeps the square, with the side's sign.
-/// The first and last segment reach on beyond their ends.
+/// Measures the pixels that are nearer to the segment a -> b than to those before. m_across receives the square of the
+/// distance across, with a sign for the side. The first and the last segment go on beyond their ends.
 void TilePainter::measure(Vec2 a, Vec2 b, float start, bool first, bool last, Box box)
 {
     const float dx = b.x - a.x, dy = b.y - a.y;
@@ -146,7 +147,8 @@ void TilePainter::measure(Vec2 a, Vec2 b, float start, bool first, bool last, Bo
             const float px = float(box.x0 + k) - a.x;
             const float s = px * tx + py * ty, v = py * tx - px * ty;
             const float on = std::min(std::max(s, from), to), off = s - on;
-            // Ends belong to the brush's outline: there the distance is measured square to the line.
+            // Beyond the ends only the distance at right angles to the line counts: the brush has the shape of the
+            // ends.
             const float d = v * v + off * off;
             const bool nearer = d < distance[k];
             distance[k] = nearer ? d : distance[k];
@@ -156,8 +158,8 @@ void TilePainter::measure(Vec2 a, Vec2 b, float start, bool first, bool last, Bo
     }
 }
 
-/// Turns places beside the line into alpha (kept in m_along, and for the relief in m_distance, which stays kFar where
-/// there is no paint) and height (in m_across).
+/// Replaces places by what the brush has there: alpha in m_along, and for the relief also in m_distance, which stays
+/// kFar where there is no paint; height in m_across.
 void TilePainter::look_up(const Stroke& stroke, float length, Box box)
 {
     const float half = 0.5f * stroke.width, total = length + stroke.width, per_width = 1.0f / stroke.width;
@@ -194,7 +196,7 @@ void TilePainter::stop_at_edges(const Shade& shade, Box box)
         const int row = slot(box.x0, y);
         for (int k = 0; k < box.x1 - box.x0; ++k)
             if (m_distance[row + k] < kFar && m_along[row + k] > 0.0f) {
-                // The body of the paint reaches a little beyond: no pits along edges.
+                // The thickness of the paint reaches a little beyond its colour, so that there are no pits along edges.
                 const float share = m_stop->share(shade, box.x0 + k, y);
                 m_along[row + k] *= share;
                 m_distance[row + k] *= 0.5f + 0.5f * share;
@@ -288,7 +290,7 @@ void TilePainter::paint(const Strokes& strokes, Index i, const std::vector<std::
         stop_at_edges(m_stop->shade(i), touched);
     if (m_options.ground)
         note_cover(touched);
-    const float brightness = 1.0f + m_options.jitter_color * signed_unit(scramble(stroke.variation + 3));
+    const float brightness = 1.0f + m_options.jitter_colour * signed_unit(scramble(stroke.variation + 3));
     blend(colours, i, brightness, kThickness * std::sqrt(stroke.width), touched);
 }
 
@@ -342,7 +344,7 @@ void light_relief(Canvas& canvas, float strength, const ParallelFor& parallel)
             for (int x = 0; x < w; ++x) {
                 const float gx = 0.5f * (here[std::min(x + 1, w - 1)] - here[std::max(x - 1, 0)]);
                 const float gy = 0.5f * (below[x] - above[x]);
-                const float slope = kRootOfHalf * (gx + gy);  // rising away from the light: lit
+                const float slope = kRootOfHalf * (gx + gy);  // above 0 where the paint faces the light
                 const float light = 1.0f + 0.5f * strength * slope / std::sqrt(kSlope * kSlope + slope * slope);
                 const std::size_t at = std::size_t(y) * std::size_t(w) + std::size_t(x);
                 for (float* channel : canvas.channels)

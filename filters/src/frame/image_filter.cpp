@@ -85,12 +85,16 @@ std::vector<float> alpha_of(const ProgressiveImage::Data& data)
     return alpha;
 }
 
-void associate(const ProgressiveImage::Data& data, std::vector<std::vector<float>>& channels)
+PictureResult drawn_result(const ProgressiveImage::Data& data, Channels&& channels)
 {
+    // Colours of associated alpha are nothing where it is 0, so that neither paper nor joints show there.
     const std::vector<float> alpha = alpha_of(data);
-    for (std::vector<float>& channel : channels)
+    for (std::vector<float>& channel : channels) {
+        crop_to_picture(data.hierarchy, channel);
         for (std::size_t i = 0; i < alpha.size(); ++i)
             channel[i] *= alpha[i];
+    }
+    return { std::move(channels), Specials::replaced };
 }
 
 void write_rows(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, OIIO::ROI roi, const ParallelFor& parallel,

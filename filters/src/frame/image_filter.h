@@ -28,7 +28,8 @@ enum class ResultType {
 };
 
 /// Checks the source and the region, and initializes `dst` as OpenImageIO's own functions do. On failure returns false
-/// with an error in `dst`. Afterwards `roi` lies within both pictures; it may be empty, and then there is nothing to do.
+/// with an error in `dst`. Afterwards `roi` lies within both pictures; it may be empty, and then there is nothing to
+/// do.
 bool prepare(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, ResultType type);
 
 /// The same for results of one channel called `name`: a new `dst` has no other, and only the first of an old one
@@ -53,10 +54,6 @@ void write_channels(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, OII
 
 /// The alpha that goes with the picture's colours, one float per pixel; empty if it has none.
 std::vector<float> alpha_of(const ProgressiveImage::Data& data);
-
-/// Multiplies channels of the picture's size by alpha, so that paper and joints do not show where the picture has no
-/// pixels: colours of associated alpha are nothing there. Nothing to do for pictures without alpha.
-void associate(const ProgressiveImage::Data& data, std::vector<std::vector<float>>& channels);
 
 /// Calls body(sample) for the samples of `count` pixels from number `first` on that were not finite.
 template<class Body>
@@ -100,6 +97,10 @@ struct PictureResult {
     Channels channels;
     Specials specials = Specials::restored;
 };
+
+/// The result of a filter that draws on mesh pixels what was not there before: cropped to the picture, and nothing
+/// where the picture has no pixels. Samples that were not finite are drawn over.
+PictureResult drawn_result(const ProgressiveImage::Data& data, Channels&& channels);
 
 /// A filter whose result is a picture: make(data, parallel, result, error) makes its colours, or returns false with one
 /// line in `error`. Everything else is done here.

@@ -10,8 +10,8 @@ namespace pimg {
 
 namespace {
 
-/// Share of the expected light down to which values stay as they are. Chosen by eye: at 1/2 no value falls more than two
-/// stops below its surroundings, which looks like shade; at 1/8 rings round lamps are still nearly black.
+/// Share of the expected light down to which values stay as they are. Chosen by eye: at 1/2 no value falls more than
+/// two stops below its surroundings, which looks like shade; at 1/8 rings round lamps are still nearly black.
 constexpr float kKnee = 0.5f;
 
 /// What is known of the piece of a vertex.
@@ -55,7 +55,7 @@ float shaded(float value, float expected)
     const float share = value / expected;
     if (!(share < kKnee))
         return value;
-    // The hyperbola that leaves the line at the knee with slope 1 and tends to half of the knee.
+    // A hyperbola that has slope 1 at the knee, like the line above, and tends to half of the knee.
     return expected * (0.5f * kKnee + 0.25f * kKnee * kKnee / (1.5f * kKnee - share));
 }
 

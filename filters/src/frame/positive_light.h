@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scene-linear pictures have no white above which nothing is: a lamp is a thousand times as bright as the wall beside it,
-// and what interpolates or amplifies such a step undershoots far below zero. Here undershoot becomes shade.
+// Scene-linear pictures have no largest value: a lamp may be a thousand times as bright as the wall beside it. A filter
+// that interpolates or amplifies such a step undershoots far below zero. These functions turn undershoot into shade.
 #pragma once
 
 #include <vector>
@@ -14,13 +14,13 @@
 
 namespace pimg {
 
-/// `value` down to half of the light expected there; what is below, smoothly, stays above a quarter of it. `expected`
-/// is above 0.
+/// Returns `value` if it is at least half of `expected`, the light that is expected there. Lower values are raised
+/// smoothly, so that they stay above a quarter of it. `expected` is above 0.
 float shaded(float value, float expected);
 
-/// Values of the vertices of level `level`, changed where they are less light than their pieces of the picture have:
-/// shaded() with the harmonic mean of the piece's samples, in which the darkest count most, since the light of a lamp in
-/// the piece says nothing of its surroundings. Where a sample is not above 0, the value is at least min(0, the piece's
+/// Raises the values of those vertices of level `level` that have less light than their pieces of the picture: by
+/// shaded() with the harmonic mean of the piece's samples as `expected`. In that mean the darkest samples count most,
+/// so that a lamp in the piece does not decide. Where a sample is not above 0, the value is at least min(0, the piece's
 /// least sample). At the finest level nothing changes.
 void shade_vertices(const Hierarchy& hierarchy, const Bands& bands, Level level, float* values);
 
@@ -28,7 +28,7 @@ void shade_vertices(const Hierarchy& hierarchy, const Bands& bands, Level level,
 /// Nothing is done for pictures that are not scene-linear.
 void bound_below(const ProgressiveImage::Data& data, const ParallelFor& parallel, Channels& results);
 
-/// Whether the filters above apply: encoded pictures have a black.
+/// Whether the picture is scene-linear. Encoded pictures have a black, so undershoot does not show.
 bool is_scene_linear(const ProgressiveImage::Data& data);
 
 }  // namespace pimg

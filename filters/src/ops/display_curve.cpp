@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace pimg {
 namespace HWY_NAMESPACE {
 
-// A pixel never depends on the others of its vector, whose number is the instruction set's.
+// A pixel never depends on the other pixels of its vector, because their number depends on the instruction set.
 
 struct Pixels {
     Vector r, g, b;
@@ -31,16 +31,21 @@ HWY_INLINE Vector tone(const ToneCurve& curve, Vector y)
 {
     constexpr float kRest = 1.0f - ToneCurve::kKnee;
     const Vector knee = set(ToneCurve::kKnee), one = set(1.0f);
-    y = hn::Min(y, set(1e18f));  // whose square is finite
+    y = hn::Min(y, set(1e18f));  // the square must be finite
     y = y * (y / (y + set(curve.toe + 1e-30f)));
     const Vector t = (y - knee) * set(1.0f / kRest);
     const Vector curved = knee + set(kRest) * (t * (one + t * set(curve.inverse_square)) / (one + t));
     return hn::IfThenElse(y <= knee, y, hn::IfThenElse(y < set(curve.white), curved, one));
 }
 
+HWY_INLINE Vector weighted(const float* weights, Vector x, Vector y, Vector z)
+{
+    return set(weights[0]) * x + set(weights[1]) * y + set(weights[2]) * z;
+}
+
 HWY_INLINE Vector luminance(const Recolour& how, const Pixels& p)
 {
-    const Vector y = set(how.weights[0]) * p.r + set(how.weights[1]) * p.g + set(how.weights[2]) * p.b;
+    const Vector y = weighted(how.weights.data(), p.r, p.g, p.b);
     const Vector floor = set(0.03f) * hn::Max(hn::Max(p.r, p.g), p.b);
     return hn::Min(hn::Max(y, floor), set(std::numeric_limits<float>::max()));
 }
@@ -59,11 +64,6 @@ HWY_INLINE void scale(Vector factor, Pixels& p)
 struct Lab {
     Vector l, a, b;
 };
-
-HWY_INLINE Vector weighted(const float (&weights)[3], Vector x, Vector y, Vector z)
-{
-    return set(weights[0]) * x + set(weights[1]) * y + set(weights[2]) * z;
-}
 
 // The matrices of Oklab for linear Rec. 709.
 constexpr float kLms[3][3] = { { 0.4122214708f, 0.5363325363f, 0.0514459929f },
@@ -98,7 +98,8 @@ HWY_INLINE Pixels from_oklab(const Lab& lab)
     return { weighted(kRgb[0], l, m, s), weighted(kRgb[1], l, m, s), weighted(kRgb[2], l, m, s) };
 }
 
-/// Colours with more than this share of the greatest saturation in gamut are drawn in.
+/// Colours of more than this share of the greatest saturation that the gamut allows become less saturated. Chosen by
+/// eye.
 constexpr float kFullSaturation = 0.85f;
 
 /// Colours on the line from the grey of a luminance to a colour of that luminance, at constant hue.
@@ -116,7 +117,7 @@ public:
     HWY_INLINE Pixels at(Vector share) const
     {
         Pixels p = from_oklab({ m_grey + share * (m_lab.l - m_grey), share * m_lab.a, share * m_lab.b });
-        const Vector y = set(m_how.weights[0]) * p.r + set(m_how.weights[1]) * p.g + set(m_how.weights[2]) * p.b;
+        const Vector y = weighted(m_how.weights.data(), p.r, p.g, p.b);
         scale(m_y / hn::Max(y, set(1e-30f)), p);
         return p;
     }
@@ -136,7 +137,8 @@ HWY_INLINE auto outside(const Pixels& p)
 /// Draws colours of luminance y, which is positive and at most 1, into the display's gamut.
 HWY_INLINE void into_gamut(const Recolour& how, Vector y, Pixels& p)
 {
-    // Most colours are far inside: mixed with grey linearly, which is not the line of the hue but near it.
+    // Most colours are far inside the gamut. A quick test finds them: it moves them away from grey along a straight
+    // line, which is near to the line of constant hue.
     constexpr float kMargin = 1.6f;
     Pixels beyond = p;
     for (Vector* channel : { &beyond.r, &beyond.g, &beyond.b })
@@ -168,7 +170,7 @@ HWY_INLINE void into_gamut(const Recolour& how, Vector y, Pixels& p)
         *channel = hn::Min(hn::Max(*channel, set(0.0f)), set(1.0f));
 }
 
-/// Mixes colours with the grey of their luminance as far as their light is noise.
+/// Mixes colours with the grey of their luminance; the more, the more of their light is noise.
 HWY_INLINE void fade(const Recolour& how, Vector y, Pixels& p)
 {
     constexpr float kFaded = 4.0f;  // at two standard deviations of the noise, half of the colour is left
@@ -180,10 +182,10 @@ HWY_INLINE void fade(const Recolour& how, Vector y, Pixels& p)
         *channel = y + share * (*channel - y);
 }
 
-/// To display luminance y from luminance `from`, both positive.
+/// Scales colours from luminance `from` to display luminance y, both positive, and brings them into the gamut.
 HWY_INLINE void fit(const Recolour& how, Vector from, Vector y, Pixels& p)
 {
-    // Divided first where the ratio would be too small for a float.
+    // Very large colours are divided first, because the ratio would be too small for a float.
     const auto is_huge = from > set(1e30f);
     const bool any_huge = !hn::AllFalse(Lanes(), is_huge);
     const Vector ratio = y / from;
@@ -205,7 +207,7 @@ HWY_INLINE void recolour_vector(const Recolour& how, Vector compressed, Vector g
     if (how.saturation != 1.0f) {
         for (Vector* channel : { &p.r, &p.g, &p.b })
             *channel = hn::IfThenElse(lit, saturated(*channel, from, how.saturation), *channel);
-        if (how.fit)  // other ratios have another luminance
+        if (how.fit)  // the changed colours have another luminance
             from = luminance(how, p);
     }
     if (how.fit)

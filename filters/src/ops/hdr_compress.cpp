@@ -17,13 +17,13 @@ namespace ImageBufAlgo {
 
 namespace {
 
-/// Gain of details that are noise. Chosen so that a noisy dim room shows no more noise beside its relief than the source
-/// does: 1.2, where none of the details would be calmed 4.2 (tm_look.py noise).
+/// Gain of details that are noise. Chosen so that a noisy dim room shows no more noise beside its relief than the
+/// source does: 1.2, where none of the details would be calmed 4.2 (tm_look.py noise).
 constexpr float kQuiet = 0.1f;
 
-/// Compressed pictures need less saturation for the same colourfulness (Mantiuk, Tomaszewska and Heidrich, "Color correction
-/// for tone mapping", 2009). Their formula is for one contrast of the whole picture; here details keep theirs, and of the
-/// compressed base this much is left.
+/// Compressed pictures need less saturation for the same colourfulness (Mantiuk, Tomaszewska and Heidrich, "Color
+/// correction for tone mapping", 2009). Their formula is for one contrast of the whole picture; here details keep
+/// theirs, and of the compressed base this much is left.
 constexpr float kSaturation = 0.9f;
 
 /// log2 of the luminance at guide value 0 after compression: the base is scaled about luminance 1.
@@ -61,7 +61,7 @@ void find_exposure(const Overview& overview, float reference, HdrCompressOptions
     find_exposure(std::move(stops), find_scene_key(overview), dark, options);
 }
 
-/// An Overview is asked for only if there is something to find.
+/// Fills in all options that are 0. Calls get_overview() only if they need it.
 template<class GetOverview>
 bool resolve(HdrCompressOptions& options, float reference, GetOverview&& get_overview)
 {
@@ -97,8 +97,8 @@ bool compress_luminance(ProgressiveImage::Data& data, const ParallelFor& paralle
     Scratch values(data, planned->plan.places());
     std::shared_ptr<const Envelope> envelope;
     if (options.coherence > 0.0f)
-        envelope = data.envelope(planned, envelope_of(options, log->noise), parallel);
-    c.noise = log->noise.times(options.denoise);
+        envelope = data.envelope(planned, envelope_of(options, data.noise(parallel)), parallel);
+    c.noise = data.noise(parallel).times(options.denoise);
     compress(*planned, gain, envelope.get(), parallel, (*values).data());
     planned->plan.scatter(data.hierarchy, (*values).data(), (*c.samples).data(), parallel);
     crop_to_picture(data.hierarchy, *c.samples);
@@ -106,7 +106,7 @@ bool compress_luminance(ProgressiveImage::Data& data, const ParallelFor& paralle
     return true;
 }
 
-/// Makes rows of results.
+/// Makes the rows of the result.
 class Renderer {
 public:
     Renderer(const ProgressiveImage::Data& data, const Compressed& compressed)
@@ -160,7 +160,7 @@ private:
     const float* compressed(Index pixel) const { return &(*m_compressed.samples)[pixel]; }
     const float* guide(Index pixel) const { return &m_compressed.luminance->guide.samples[pixel]; }
 
-    /// Results for displays are made in Rec. 709, so that they do not depend on the primaries a scene is stored in.
+    /// Results for displays are made in Rec. 709, so that they do not depend on the primaries of the source.
     void recolour_pixels(Index first, std::size_t count, float* rgb) const
     {
         if (m_compressed.options.fit) {
@@ -172,7 +172,7 @@ private:
             m_data.colour.from_rec709(rgb, count);
     }
 
-    /// Ringing is shown with the light around it.
+    /// Gives pixels that are ringing the light around them.
     void put_in_filled(Index first, std::size_t count, float* rgb) const
     {
         const std::vector<FilledPixel>& filled = m_compressed.luminance->filled;
@@ -182,7 +182,7 @@ private:
             std::copy(it->rgb.begin(), it->rgb.end(), rgb + 3 * (it->pixel - first));
     }
 
-    /// Pixels whose colour is not three samples in a row, as displays want them, or not linear.
+    /// Renders pixels whose colours are not three neighbouring linear samples: by way of a buffer.
     void render_batch(Index first, std::size_t count, float* pixels) const
     {
         float rgb[3 * kBatch];
@@ -196,7 +196,8 @@ private:
         }
     }
 
-    /// As a display shows them: +Inf white; NaN stays what is around it. In the picture's own units: as they were.
+    /// Handles samples that were not finite. In a result for displays +Inf is white and NaN stays what the pixels
+    /// around gave it; in a result in the picture's own units they are what they were.
     void put_back_specials(Index first, std::size_t count, float* row) const
     {
         for_specials(m_data, first, count, [&](const SpecialSample& s) {
@@ -215,7 +216,7 @@ private:
     const ProgressiveImage::Data& m_data;
     const Compressed& m_compressed;
     Recolour m_how;
-    bool m_in_place;  ///< a row of the picture is a row of linear RGB
+    bool m_in_place;  ///< rows of the picture are linear RGB without other channels
 };
 
 }  // namespace

@@ -16,7 +16,8 @@ namespace ImageBufAlgo {
 
 namespace {
 
-/// Mixes ink into one channel: black where it is brighter than its mean, else as bright as its brightest.
+/// Draws lines over one channel: black where the channel is brighter than its mean, elsewhere as bright as its
+/// brightest sample.
 void draw_over(const std::vector<float>& coverage, std::vector<float>& channel)
 {
     const double sum = std::accumulate(channel.begin(), channel.end(), 0.0);
@@ -39,23 +40,23 @@ bool on_hierarchy::wireframe(ImageBuf& dst, const ProgressiveImage& src, const W
         if (!make_level(data, options, options.overlay, parallel, picture, error))
             return false;
         std::vector<float> coverage = pimg::wireframe(picture.mesh, options.line);
-        crop_to_picture(data.hierarchy, coverage);
         if (options.overlay) {
+            crop_to_picture(data.hierarchy, coverage);
             const std::vector<float> alpha = alpha_of(data);
             for (std::size_t i = 0; i < alpha.size(); ++i)
                 coverage[i] *= alpha[i];
             for (std::vector<float>& channel : picture.channels) {
                 draw_over(coverage, channel);
+                // The triangles of a level reach over the edge of a cut-out figure.
                 for (std::size_t i = 0; i < alpha.size(); ++i)
-                    channel[i] = alpha[i] > 0.0f ? channel[i] : 0.0f;  // triangles of a level reach over the edge
+                    channel[i] = alpha[i] > 0.0f ? channel[i] : 0.0f;
             }
+            result = { std::move(picture.channels), Specials::replaced };
         } else {
             for (float& c : coverage)
                 c = 1.0f - c;
-            picture.channels.assign(std::size_t(data.colour.count()), coverage);
-            associate(data, picture.channels);
+            result = drawn_result(data, Channels(std::size_t(data.colour.count()), coverage));
         }
-        result = { std::move(picture.channels), Specials::replaced };
         return true;
     };
     return filter_picture({ dst, src, roi, nthreads }, options, ResultType::as_source, make);

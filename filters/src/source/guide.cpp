@@ -15,8 +15,8 @@ namespace pimg {
 
 namespace {
 
-/// Quantiles and factors that bound the luminance a guide distinguishes. They are relative to the picture, so a scaled
-/// picture gives the same guide; and quantiles, so that no single pixel moves them.
+/// Quantiles and factors that limit the range of luminance in a guide. They are relative to the picture, so that a
+/// scaled picture gives the same guide; and they are quantiles, so that no single pixel moves them.
 constexpr double kFloorQuantile = 0.001;  ///< black is a stop below this quantile ...
 constexpr float kFloorBelowQuantile = 0.5f;
 constexpr float kFloorBelowMiddle = 0x1p-16f;  ///< ... but no more than 16 stops below the median
@@ -61,7 +61,7 @@ void fill_holes(Raster& raster, const std::vector<Index>& holes)
         state[i] = unknown;
         raster.samples[i] = 0.0f;
     }
-    // Layer by layer: a layer's values come from earlier ones only, so their order does not matter.
+    // Layer by layer: the values of a layer depend on earlier layers only, so the order of its pixels does not matter.
     std::vector<Index> layer, next;
     const auto touches_known = [&](Index i) {
         bool found = false;
@@ -133,7 +133,7 @@ std::vector<SpecialSample> repair(OIIO::ImageBuf& picture, const Colour& colour,
     return specials;
 }
 
-/// Bits of a float's mantissa that a bin does not tell apart: five of 23 are kept.
+/// Lowest bits of a float that a bin ignores: five of the mantissa's 23 bits are kept.
 constexpr int kDropped = 18;
 
 MagnitudeHistogram::MagnitudeHistogram(const std::vector<float>& values) : m_bins(1u << (31 - kDropped))
@@ -167,10 +167,8 @@ float MagnitudeHistogram::quantile(double q) const
 
 namespace {
 
-/// Alpha below this, the least normal half, is as good as none: its colours are left as they are.
-constexpr float kLeastAlpha = 0x1p-14f;
-
-/// Calls body(alpha, its triple) for pixels whose colours are associated with an alpha that is neither none nor all.
+/// Calls body(alpha, triple) for the pixels that are neither transparent nor opaque, if colours are associated with
+/// alpha.
 template<class Body>
 void for_soft_pixels(const OIIO::ImageBuf& picture, const Colour& colour, Index first, std::size_t count, float* rgb,
                      Body&& body)

@@ -74,6 +74,9 @@ struct StoredGuide {
 StoredGuide stored_guide(const OIIO::ImageBuf& picture, const Colour& colour, bool separate, bool whole_numbers,
                          const ParallelFor& parallel);
 
+/// Alpha below this, the least normal half, is as good as none: colours are not divided by it.
+constexpr float kLeastAlpha = 0x1p-14f;
+
 /// `count` pixels of a float picture from number `first` on (row-major) as linear RGB triples; the first colour channel
 /// stands in for missing ones. Colours are straight: where they are associated with alpha, it is divided out.
 void linear_pixels(const OIIO::ImageBuf& picture, const Colour& colour, Index first, std::size_t count, float* rgb);

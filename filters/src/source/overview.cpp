@@ -44,8 +44,9 @@ Raster grid_for(const Raster& picture)
     return grid;
 }
 
-/// The samples of a row, but for single bright pixels, which are no brighter than a lamp beside the second brightest
-/// around them: a firefly or a hot pixel says nothing of the scene, and one of them outshines a whole cell.
+/// The samples of a row. A pixel that outshines its surroundings, such as a firefly of a renderer or a hot pixel of a
+/// camera, says nothing of the scene, but one of them may hold most of the light of a cell: so none is more than kLamp
+/// above the second brightest of its neighbours. The brightest does not count, since two such pixels may touch.
 void take_row(const Raster& log, int y, std::vector<float>& row)
 {
     const int width = log.width;
@@ -63,7 +64,7 @@ void take_row(const Raster& log, int y, std::vector<float>& row)
                     second = std::max(second, std::min(first, sample(i, j)));
                     first = std::max(first, sample(i, j));
                 }
-        row[std::size_t(x)] = std::min(here, std::max(second, first - kLamp) + kLamp);
+        row[std::size_t(x)] = std::min(here, second + kLamp);
     }
 }
 

@@ -112,12 +112,12 @@ bool ProgressiveImage::Data::read(const OIIO::ImageBuf& src, std::string& error)
         return false;
     }
     if (src.deep()) {
-        error = "deep images not supported";
+        error = "deep images are not supported: expected one sample for each pixel";
         return false;
     }
     spec = src.spec();
     if (spec.depth > 1) {
-        error = "volumes not supported";
+        error = "volumes are not supported: expected a picture of depth 1";
         return false;
     }
     if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) {
@@ -186,7 +186,6 @@ bool ProgressiveImage::Data::hierarchy_of_guide(const MakeHierarchy& make_hierar
     stats.simplify_seconds = watch.lap() - stats.sample_seconds;
     if (m_log != nullptr && status) {
         m_log->luminance.guide = std::move(channels[0]);
-        m_log->noise = estimate_noise(m_log->luminance, parallel);
         m_log->bands = &guide_bands[0];
     }
     return status.ok();
@@ -252,10 +251,17 @@ const LogBands* ProgressiveImage::Data::log_bands(const ParallelFor& parallel, s
     if (!status)
         return nullptr;
     m_log_bands = std::move(bands[0]);
-    log->noise = estimate_noise(log->luminance, parallel);
     log->bands = &m_log_bands;
     m_log = std::move(log);
     return m_log.get();
+}
+
+const NoiseModel& ProgressiveImage::Data::noise(const ParallelFor& parallel)
+{
+    std::lock_guard<std::mutex> lock(m_mutex);
+    if (!m_noise)
+        m_noise = estimate_noise(m_log->luminance, parallel);
+    return *m_noise;
 }
 
 std::shared_ptr<const PlannedBands> ProgressiveImage::Data::planned_log_bands(const ParallelFor& parallel)

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include <pimg/progressive_image.h>
@@ -21,7 +22,6 @@ namespace pimg {
 /// Bands of log luminance, whatever the guide was.
 struct LogBands {
     LogLuminance luminance;
-    NoiseModel noise;
     const Bands* bands = nullptr;
 };
 
@@ -37,7 +37,7 @@ struct ProgressiveImage::Data {
     OIIO::ImageSpec spec;
     BuildOptions options;
     Colour colour;
-    bool whole_numbers = false;  ///< the picture's file or memory has integers, here 0..1; all scales follow this
+    bool whole_numbers = false;  ///< the source stores integers, which are 0..1 here; all scales depend on this
     std::vector<SpecialSample> specials;  ///< by pixel, then channel
     Hierarchy hierarchy;
     std::vector<Bands> guide_bands;
@@ -47,13 +47,17 @@ struct ProgressiveImage::Data {
     const LogBands* log_bands(const ParallelFor& parallel, std::string& error);
     const ChannelBands* channel_bands(const ParallelFor& parallel, std::string& error);
 
-    /// The same bands, after log_bands(), for a sweep more: planned from the second time on, when it pays.
+    /// The noise of the picture, after log_bands(). Estimated at the first call: only hdr_compress asks for it.
+    const NoiseModel& noise(const ParallelFor& parallel);
+
+    /// The same bands ready for another sweep, after log_bands(). A sweep plan is made at the second call, from which
+    /// on it saves time.
     std::shared_ptr<const PlannedBands> planned_log_bands(const ParallelFor& parallel);
 
-    /// Likewise; `log`: of the logarithms of the channels.
+    /// What smoothing by strength needs of the channels, or, if `log`, of their logarithms. Kept.
     const SmoothingData& smoothing(bool log);
 
-    /// What compression and exposure are found from.
+    /// What compression and exposure are found from. Kept; null, with an error, like the bands.
     const Overview* overview(const ParallelFor& parallel, std::string& error);
 
     /// See contrast_envelope(). Kept for what it was last asked for.
@@ -64,7 +68,8 @@ struct ProgressiveImage::Data {
     std::vector<float> take_scratch();
     void keep_scratch(std::vector<float>&& scratch);
 
-    /// Merges of the picture's pieces, fit for cuts into `regions` regions. Kept. Null, with an error, like the bands.
+    /// Merges of the picture's pieces, fine enough for a cut into `regions` regions. Kept. Null, with an error, like
+    /// the bands.
     std::shared_ptr<const RegionTree> region_tree(std::size_t regions, const ParallelFor& parallel, std::string& error);
 
     std::size_t memory();
@@ -83,6 +88,7 @@ private:
 
     std::mutex m_mutex;
     std::unique_ptr<LogBands> m_log;
+    std::optional<NoiseModel> m_noise;
     std::unique_ptr<ChannelBands> m_channels;
     std::unique_ptr<SmoothingData> m_smoothing[2];  ///< as stored, logarithms
     float m_guide_scale = 0.0f;                     ///< see StoredGuide; of luma and rgb guides
@@ -101,7 +107,7 @@ private:
 /// Samples of one channel of the source, row-major.
 std::vector<float> channel_samples(const ProgressiveImage::Data& data, int channel);
 
-/// `size` floats without a particular value, kept by the image for the next who needs some.
+/// `size` floats without particular values. Afterwards the image keeps the memory for the next Scratch.
 class Scratch {
 public:
     Scratch(ProgressiveImage::Data& data, std::size_t size) : m_data(data), m_values(data.take_scratch())

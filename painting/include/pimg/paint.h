@@ -14,21 +14,25 @@ struct Canvas {
     int width = 0, height = 0;
     std::vector<float*> channels;
     float* relief = nullptr;  ///< receives the thickness of the paint in pixels, one float per pixel; null: not wanted
-    /// Alpha of what is on the canvas, if its colours are multiplied by alpha. It is painted on like a channel, but without
-    /// grain and random changes. Null: all is opaque.
+    /// Alpha of what is on the canvas, if its colours are multiplied by alpha. It is painted on like a channel, but
+    /// without grain and random changes. Null: all is opaque.
     float* alpha = nullptr;
 };
 
 /// How strokes are painted.
 struct StrokePaintOptions {
-    float opacity = 1.0f;       ///< opacity of every stroke, 0..1
-    float jitter_color = 0.0f;  ///< 0..1: largest random change of a stroke's brightness, as a share of it
-    /// Edges that stop the paint: up to three channels of the canvas's size, in units of one step of an 8-bit picture. A
-    /// stroke covers a pixel only as far as the pixel is on the stroke's side of an edge. So it ends where the picture's
-    /// edge does, with the same anti-aliasing. Null: edges do not stop paint.
+    float opacity = 1.0f;  ///< opacity of every stroke, 0..1
+    union {
+        float jitter_colour = 0.0f;  ///< 0..1: largest random change of a stroke's brightness, as a share of it
+        [[deprecated("renamed: jitter_colour")]] float jitter_color;
+    };
+    /// Edges that stop the paint: up to three channels of the canvas's size, in units of one step of an 8-bit picture.
+    /// A stroke covers a pixel only as far as the pixel is on the stroke's side of an edge. So it ends where the
+    /// picture's edge does, with the same anti-aliasing. Null: edges do not stop paint.
     const ChannelsView* edges = nullptr;
-    /// Fills holes: along edges that stop the paint, a few pixels may get none, and these show this picture, which has the
-    /// size and the channels of the canvas, and then its alpha, if that has one. Gaps between the hairs of a brush stay. Null: holes stay, too.
+    /// Fills holes: along edges that stop the paint, a few pixels may get none, and these show this picture, which has
+    /// the size and the channels of the canvas, and then its alpha, if that has one. Gaps between the hairs of a brush
+    /// stay. Null: holes stay, too.
     const ChannelsView* ground = nullptr;
     float crossing = 14.0f;  ///< smallest difference in `edges` that is an edge
     ParallelFor parallel;    ///< the result does not depend on it
@@ -36,8 +40,8 @@ struct StrokePaintOptions {
 
 using PaintSettings [[deprecated("renamed: StrokePaintOptions")]] = StrokePaintOptions;
 
-/// Paints the strokes in their order. colours[c][i] is the value of stroke i in channel c of the canvas; the entry after
-/// the channels is its alpha, if the canvas has one.
+/// Paints the strokes in their order. colours[c][i] is the value of stroke i in channel c of the canvas; the entry
+/// after the channels is its alpha, if the canvas has one.
 void paint_strokes(const Strokes& strokes, const std::vector<std::vector<float>>& colours, const Brush& brush,
                    const StrokePaintOptions& options, Canvas& canvas);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <OpenImageIO/imagebufalgo.h>
 #include <pimg/imagebufalgo.h>
@@ -265,6 +266,28 @@ TEST(HdrCompress, BadPixelsStayAlone)
                     worst = std::max(worst, std::fabs(l[std::size_t(y * 96 + x)] - expected[std::size_t(y * 96 + x)]));
             }
         EXPECT_LT(worst, 1.0f) << bad.name;
+    }
+}
+
+/// Pixels that outshine everything around them, as hot pixels and fireflies of renderers do, say nothing of the scene.
+/// Two of them may touch.
+TEST(HdrCompress, SingleBrightPixelsDoNotMoveTheExposure)
+{
+    HdrCompressOptions expected;
+    std::string error;
+    ASSERT_TRUE(ImageBufAlgo::resolve_hdr_compress(hdr_scene(), expected, error)) << error;
+    const float bright[3] = { 1e4f, 1e4f, 1e4f };
+    for (const auto& [dx, dy] : { std::pair(0, 0), { 1, 0 }, { 0, 1 }, { 1, 1 } }) {
+        ImageBuf src = hdr_scene();
+        for (const auto& [x, y] : { std::pair(20, 12), { 60, 40 }, { 80, 20 } }) {
+            src.setpixel(x, y, bright);
+            src.setpixel(x + dx, y + dy, bright);
+        }
+        HdrCompressOptions options;
+        ASSERT_TRUE(ImageBufAlgo::resolve_hdr_compress(src, options, error)) << error;
+        EXPECT_NEAR(options.dmax / expected.dmax, 1.0f, 0.02f) << dx << ' ' << dy;
+        EXPECT_NEAR(options.key / expected.key, 1.0f, 0.02f) << dx << ' ' << dy;
+        EXPECT_NEAR(options.white / expected.white, 1.0f, 0.02f) << dx << ' ' << dy;
     }
 }
 

@@ -7,10 +7,9 @@
 
 #include <OpenImageIO/strutil.h>
 
-#include <pimg/detail/elementary.h>
 #include <pimg/detail/format.h>
+#include <pimg/detail/rec709.h>
 #include <pimg/detail/safe_file.h>
-#include <pimg/display.h>
 #include <pimg/drawing_file.h>
 #include <pimg/ink.h>
 #include <pimg/smoothing.h>
@@ -24,17 +23,18 @@ namespace ImageBufAlgo {
 
 namespace {
 
-/// Strengths, in 8-bit steps, of what is taken from a picture before its edges are looked for: texture and noise, and all
-/// but the important features. By eye; more: fewer and smoother outlines.
+/// Strengths of smoothing, in 8-bit steps, before edges are looked for: the first removes texture and noise, the second
+/// all but the important features. Chosen by eye; more makes outlines fewer and smoother.
 constexpr float kTexture = 6.0f, kUnimportant = 20.0f;
 
-/// Regions whose colours the inks are chosen from. By eye; more would only cost time.
+/// Number of regions from whose colours the inks are chosen. Chosen by eye; more would only take time.
 constexpr Index kRegions = 400;
 
-/// Pens that fit along the longer side of a picture at most: what is planned grows as the square of it.
+/// Largest ratio of the picture's longer side to the width of the pen: time and memory grow as its square.
 constexpr double kMostPens = 4000.0;
 
-/// Least width in pixels of a pen that is given in millimetres: small pictures have nothing for finer ones to draw.
+/// Least width in pixels of a pen that is given in millimetres. Finer pens would have nothing to draw on small
+/// pictures.
 constexpr float kFinestPen = 0.5f;
 
 /// A picture with what drawing it needs, over the mesh's pixels.
@@ -48,12 +48,10 @@ struct Sitter {
 /// L* of a grey value encoded in sRGB.
 float lightness_of_grey(float v)
 {
-    const float light = float(srgb_decoded(double(v)));
-    return light > 216.0f / 24389.0f ? 116.0f * float(elementary::cube_root(double(light))) - 16.0f
-                                     : light * (24389.0f / 27.0f);
+    return elementary::lightness(float(elementary::srgb_decoded(double(v))));
 }
 
-/// L* of every mesh pixel on white paper: what is transparent is as light as that.
+/// L* of every mesh pixel on white paper. Transparent pixels are as light as the paper.
 std::vector<float> lightness(const ProgressiveImage::Data& data, const OwnedChannels& eye, const Channels& lab)
 {
     std::vector<float> tones;
@@ -134,7 +132,7 @@ bool seat(ProgressiveImage::Data& data, const InkOptions& options, const Paralle
     return true;
 }
 
-/// A sheet of a name such as a4, or of WxH millimetres.
+/// Reads the size of a sheet: a name such as a4, or WxH in millimetres.
 bool parse_paper(const std::string& text, Paper& paper, std::string& error)
 {
     const std::string name = OIIO::Strutil::lower(text);
@@ -201,12 +199,12 @@ std::vector<std::vector<float>> ink_values(const ProgressiveImage::Data& data, c
     for (std::size_t c = 0; c < values.size(); ++c)
         for (const std::array<float, 3>& ink : drawing.inks) {
             const float v = ink[std::min<std::size_t>(c, 2)];
-            values[c].push_back(data.colour.encoded() ? v : float(srgb_decoded(double(v))));
+            values[c].push_back(data.colour.encoded() ? v : float(elementary::srgb_decoded(double(v))));
         }
     return values;
 }
 
-/// White paper with lines.
+/// Draws the lines on white paper, mesh-sized, and writes the file that the options ask for.
 bool draw(ProgressiveImage::Data& data, const InkOptions& options, const ParallelFor& parallel, Channels& paper,
           std::string& error)
 {
@@ -236,8 +234,6 @@ bool draw(ProgressiveImage::Data& data, const InkOptions& options, const Paralle
     for (std::vector<float>& channel : paper)
         canvas.channels.push_back(channel.data());
     render_drawing(drawing, ink_values(data, drawing), canvas, parallel);
-    for (std::vector<float>& channel : paper)
-        crop_to_picture(data.hierarchy, channel);
     return true;
 }
 
@@ -247,10 +243,10 @@ bool on_hierarchy::ink(ImageBuf& dst, const ProgressiveImage& src, const InkOpti
 {
     const auto make = [&](ProgressiveImage::Data& data, const ParallelFor& parallel, PictureResult& result,
                           std::string& error) {
-        if (!draw(data, options, parallel, result.channels, error))
+        Channels paper;
+        if (!draw(data, options, parallel, paper, error))
             return false;
-        associate(data, result.channels);
-        result.specials = Specials::replaced;
+        result = drawn_result(data, std::move(paper));
         return true;
     };
     return filter_picture({ dst, src, roi, nthreads }, options, ResultType::as_source, make);

@@ -15,8 +15,8 @@ namespace ImageBufAlgo {
 
 namespace {
 
-/// Where there is alpha, gives each tile of the picture in `channels` its mean colour without it: a tile half outside
-/// of a cut-out is no darker than its neighbours.
+/// If the picture has alpha, gives each tile its mean colour with alpha divided out, so that a tile that lies half
+/// outside of a cut-out figure is no darker than its neighbours.
 void straighten(const ProgressiveImage::Data& data, const Tiling& tiling, Index tiles, const ParallelFor& parallel,
                 const std::vector<float*>& channels)
 {
@@ -58,10 +58,7 @@ bool on_hierarchy::mosaic(ImageBuf& dst, const ProgressiveImage& src, const Mosa
         const Tiling tiling = tile(mesh, parallel);
         straighten(data, tiling, mesh.size(), parallel, channels);
         lay_mosaic(tiling, mesh.size(), { options.grout, options.bevel, options.relief, parallel }, grout, channels);
-        for (std::vector<float>& channel : picture.channels)
-            crop_to_picture(data.hierarchy, channel);
-        associate(data, picture.channels);
-        result = { std::move(picture.channels), Specials::replaced };
+        result = drawn_result(data, std::move(picture.channels));
         return true;
     };
     return filter_picture({ dst, src, roi, nthreads }, options, ResultType::as_source, make);

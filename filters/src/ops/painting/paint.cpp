@@ -19,7 +19,7 @@ namespace ImageBufAlgo {
 
 namespace {
 
-/// What the options name, loaded.
+/// What the options name, read from files, and the canvas.
 struct Studio {
     Brush brush;
     OwnedChannels canvas;         ///< mesh-sized
@@ -29,7 +29,7 @@ struct Studio {
     std::vector<float> cover;     ///< alpha of the canvas; empty if the picture is opaque
 };
 
-/// A picture of another size as channels over the mesh.
+/// Reads a picture of any size and resizes it to the mesh's pixels.
 bool fitted(const std::string& filename, const ProgressiveImage::Data& data, int channels, OwnedChannels& picture,
             std::string& error)
 {
@@ -77,7 +77,7 @@ bool load_brush(const std::string& name, Brush& brush, std::string& error)
         roi.chend = c + 1;
         file.get_pixels(roi, OIIO::TypeDesc::FLOAT, samples.data());
     };
-    // Alpha is where the paint is and grey how thick it is; without alpha grey is both.
+    // Alpha says where the paint is, and grey how thick it is; without alpha, grey says both.
     read(channel == 0 && spec.nchannels > 1 ? 1 : 0, height);
     if (channel >= 0)
         read(channel, alpha);
@@ -142,7 +142,7 @@ StrokeOptions stroke_options(const PaintOptions& options, const Studio& studio, 
     return strokes;
 }
 
-/// Colours for a file: encoded for a display.
+/// Converts colours for a file, which has them encoded for a display.
 ShownColours shown(ShownColours colours, const ProgressiveImage::Data& data)
 {
     colours.resize(std::size_t(data.colour.count()));  // without alpha
@@ -155,9 +155,9 @@ ShownColours shown(ShownColours colours, const ProgressiveImage::Data& data)
     return colours;
 }
 
-/// Gives the paint the picture's alpha. Strokes reach beyond a soft edge, or bring transparent paint into what is opaque:
-/// the colour without alpha is right, and is multiplied by the alpha of the pixel. Where there is no paint to speak of, the
-/// picture stays.
+/// Gives the paint the picture's alpha. Strokes reach beyond soft edges, or bring transparent paint into opaque parts.
+/// So alpha is divided out of the paint, and its colour multiplied by the alpha of the pixel. Where there is next to no
+/// paint, the picture stays.
 void apply_alpha(const ProgressiveImage::Data& data, const OwnedChannels& picture, Studio& studio)
 {
     constexpr float kLeastCover = 1e-3f;
@@ -207,7 +207,7 @@ bool paint_canvas(ProgressiveImage::Data& data, const PaintOptions& options, con
         canvas.channels.push_back(channel.data());
     StrokePaintOptions settings;
     settings.opacity = options.opacity;
-    settings.jitter_color = options.jitter_colour;
+    settings.jitter_colour = options.jitter_colour;
     settings.edges = &guides;
     settings.crossing = planning.crossing;
     settings.ground = studio.on_the_picture ? nullptr : &ground;

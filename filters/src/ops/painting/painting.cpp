@@ -16,9 +16,9 @@ namespace pimg {
 namespace {
 
 constexpr float kUnitsToAStop = 255.0f / 6.0f;
-constexpr float kMostStopsOfColour = 3.0f;  ///< a channel is at most so far from the luminance
+constexpr float kMostStopsOfColour = 3.0f;  ///< most that a channel may differ from the luminance
 
-/// Eye units to a unit of the stored samples.
+/// How many units of eye_channels() are one unit of the stored samples.
 float stored_scale(const ProgressiveImage::Data& data)
 {
     if (data.whole_numbers)
@@ -32,8 +32,8 @@ float stored_scale(const ProgressiveImage::Data& data)
     return most > 0.0f ? 256.0f / most : 1.0f;
 }
 
-/// Logarithms of the channels, each at most some stops from the luminance, which the guide has cleaned of what has
-/// none.
+/// Logarithms of the channels, each at most kMostStopsOfColour from the luminance. The luminance is that of the guide,
+/// where pixels without a logarithm have been replaced.
 OwnedChannels log_channels(const ProgressiveImage::Data& data, const LogLuminance& luminance,
                            const ParallelFor& parallel)
 {
@@ -113,7 +113,8 @@ std::vector<float> darkness(const ProgressiveImage::Data& data, const OwnedChann
         for (std::size_t i = 0; i < pixels; ++i)
             tones[i] += weight * eye.channels[c][i];
     }
-    // Stored samples have their own black and white; a logarithm's are the picture's 1 % and 99 %.
+    // Stored samples have a black and a white. Logarithms have none, so that the picture's quantiles 1 % and 99 % take
+    // their place.
     float black = 0.0f, white = 255.0f;
     if (data.stats.guide == "log") {
         std::vector<float> sorted = tones;

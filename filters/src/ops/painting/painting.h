@@ -24,9 +24,9 @@ struct OwnedChannels {
 /// The colour channels of the picture as stored, over the mesh's pixels.
 OwnedChannels stored_channels(const ProgressiveImage::Data& data);
 
-/// Up to three channels in steps of an 8-bit picture. Of a log guide, whose picture holds light: the logarithm, so that
-/// shadows count as lights do, 1/6 of the range to a stop. Else the samples as stored, 256 to an integer format's range
-/// or to the brightest but a thousandth.
+/// Up to three channels in steps of an 8-bit picture. With a log guide the picture holds light, and the channels are
+/// its logarithms, so that shadows count as much as lights: a stop is 1/6 of the 8-bit range. Otherwise they are the
+/// samples as stored, scaled so that 256 is the range of an integer format or, for floats, the quantile 99.9 %.
 bool eye_channels(ProgressiveImage::Data& data, const ParallelFor& parallel, OwnedChannels& picture,
                   std::string& error);
 

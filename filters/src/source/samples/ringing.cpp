@@ -9,11 +9,10 @@ namespace pimg {
 
 namespace {
 
-constexpr float kImplausible = 0x1p-5f;  ///< share of the light around a pixel below which it is none of the scene's
+constexpr float kImplausible = 0x1p-5f;  ///< share of the light around it below which a pixel is no part of the scene
 constexpr float kBesideLight = 0x1p-3f;  ///< the same beside a light: lobes of filters take that much of what is around
 constexpr float kLight = 32.0f;  ///< how far a light outshines its surroundings; a lobe is a tenth of it or less
 constexpr float kKept = 0.75f;   ///< share of the light around that a filled pixel gets
-constexpr float kTransparent = 0x1p-14f;
 
 class Finder {
 public:
@@ -48,7 +47,7 @@ private:
                 body(i, j);
     }
 
-    /// A first test that few pixels pass.
+    /// A quick test first, which few pixels pass.
     bool is_dark(int x, int y) const
     {
         const float here = at(x, y);
@@ -68,14 +67,15 @@ private:
     {
         const OIIO::ImageSpec& spec = m_picture.spec();
         return m_colour.alpha() >= 0
-            && static_cast<const float*>(m_picture.pixeladdr(spec.x + x, spec.y + y))[m_colour.alpha()] < kTransparent;
+            && static_cast<const float*>(m_picture.pixeladdr(spec.x + x, spec.y + y))[m_colour.alpha()] < kLeastAlpha;
     }
 
-    /// The median of the light of the 24 pixels around; 0 if most of them are no lighter than the pixel may be.
+    /// The median of the light of those of the 24 pixels around that have any; 0 unless most of the 24 are plausibly
+    /// lit.
     float light_around(int x, int y) const
     {
         float lit[25];
-        int all = -1, count = 0;  // the pixel itself is not around itself
+        int all = -1, count = 0;  // -1 because the pixel itself does not count
         for_square(x, y, 2, [&](int i, int j) {
             ++all;
             if (at(i, j) > 0.0f)
@@ -100,8 +100,8 @@ private:
         return light >= kLight * around;
     }
 
-    /// A colour of that luminance: the mean of the lit pixels around, whose light does not count, so that lights do not
-    /// outweigh the others.
+    /// A colour of the given luminance: the mean colour of the lit pixels around. Each counts the same, however light
+    /// it is, so that lamps do not outweigh the others.
     std::array<float, 3> colour_around(int x, int y, float luminance) const
     {
         std::array<float, 3> sum { 0.0f, 0.0f, 0.0f };
