@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <pimg/detail/pixel_span.h>
+
 #include "simplify/metrics/collapse_metric.h"
 
 namespace pimg {
@@ -12,11 +14,6 @@ namespace {
 
 /// Intensity that each pixel of the edge counts for: makes flat places coarsen evenly.
 constexpr double kLength = 1e-3;
-
-std::int64_t floor_div(std::int64_t a, std::int64_t b)  // b > 0
-{
-    return a >= 0 ? a / b : -((-a + b - 1) / b);
-}
 
 class ExactMetric : public CollapseMetric {
 public:
@@ -55,27 +52,17 @@ double ExactMetric::cost(Index t, Index u, Point p)
 /// Largest weighted difference between the triangle's plane and the pixels in it, over all channels.
 double ExactMetric::deviation(Index a, Index b, Index c) const
 {
-    const Index vertices[3] = { a, b, c };
+    const Point p[3] = { m_mesh.points[a], m_mesh.points[b], m_mesh.points[c] };
     std::int64_t x[3], y[3];
     for (int k = 0; k < 3; ++k) {
-        x[k] = m_mesh.points[vertices[k]].x / kSubpixels;
-        y[k] = m_mesh.points[vertices[k]].y / kSubpixels;
+        x[k] = p[k].x / kSubpixels;
+        y[k] = p[k].y / kSubpixels;
     }
     const double area = double((x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]));
     const std::int64_t top = std::min({ y[0], y[1], y[2] }), bottom = std::max({ y[0], y[1], y[2] });
     double worst = 0;
     for (std::int64_t row = top; row <= bottom; ++row) {
-        // Columns on the inner side of all three edges, in exact integers.
-        std::int64_t first = std::min({ x[0], x[1], x[2] }), last = std::max({ x[0], x[1], x[2] });
-        for (int k = 0; k < 3; ++k) {
-            const int n = (k + 1) % 3;
-            const std::int64_t dx = x[n] - x[k], dy = y[n] - y[k], side = dx * (row - y[k]);
-            // inside: dx (row - y) - dy (column - x) >= 0
-            if (dy > 0)
-                last = std::min(last, x[k] + floor_div(side, dy));
-            else if (dy < 0)
-                first = std::max(first, x[k] - floor_div(side, -dy));
-        }
+        const auto [first, last] = pixel_span(p, row);
         for (std::size_t ch = 0; ch < m_pixels.size() && first <= last; ++ch) {
             const double z = double(m_mesh.z[ch][a]), bz = double(m_mesh.z[ch][b]) - z,
                          cz = double(m_mesh.z[ch][c]) - z;
