@@ -28,10 +28,10 @@ std::string to_text(const py::handle& value)
     if (py::hasattr(value, "__fspath__"))
         return py::str(value.attr("__fspath__")());
     const std::string text = py::str(value);
-    return text == "True" ? "1" : text == "False" ? "0" : text;  // NumPy's are no bool
+    return text == "True" ? "1" : text == "False" ? "0" : text;  // the flags of NumPy are not of type bool
 }
 
-/// Words of Python's own, such as `from`, end in an underscore.
+/// The name of an option in Python. Reserved words such as `from` get an underscore at the end.
 std::string python_name(const OptionInfo& option)
 {
     const bool reserved = py::module_::import("keyword").attr("iskeyword")(option.key).cast<bool>();
@@ -91,9 +91,8 @@ std::string paragraph(const OptionInfo& option)
 OptionTexts to_texts(const py::kwargs& arguments, const std::vector<OptionInfo>& known)
 {
     OptionTexts texts;
-    std::vector<std::string> names;
-    for (const OptionInfo& option : known)
-        names.push_back(python_name(option));
+    std::vector<std::string> names(known.size());
+    std::transform(known.begin(), known.end(), names.begin(), python_name);
     for (const auto& [key, value] : arguments) {
         const std::string name = py::str(key);
         const auto at = std::find_if(known.begin(), known.end(), [&](const OptionInfo& option) {

@@ -24,7 +24,8 @@ std::string path_text(const py::object& path)
     return text;
 }
 
-/// Pictures come from build() and open(): one that Python makes itself would be memory that was never set.
+/// Refuses ProgressiveImage.__new__(): pictures are made by build() and open(), and one made otherwise would hold
+/// memory that was never set.
 PyObject* refuse_new(PyTypeObject* /*type*/, PyObject* /*arguments*/, PyObject* /*keywords*/)
 {
     PyErr_SetString(PyExc_TypeError, "ProgressiveImage: expected pimg.build() or pimg.open() to make one");
@@ -121,7 +122,7 @@ std::vector<std::string> filter_names()
     return names;
 }
 
-/// .pimg files in every function of OpenImageIO in this process, unless the plugin is there already.
+/// Makes all functions of OpenImageIO in this process read and write .pimg files, unless the plugin does so already.
 void register_format()
 {
     static const char* extensions[] = { "pimg", nullptr };

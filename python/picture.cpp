@@ -43,7 +43,7 @@ TypeDesc sample_type(const py::dtype& dtype)
         format("an array of {}: expected uint8, uint16, uint32, float16, float32 or float64", text(dtype)));
 }
 
-py::dtype numpy_type(TypeDesc type)
+py::dtype numpy_type(const TypeDesc& type)
 {
     for (const SampleType& sample : kSampleTypes)
         if (type == sample.type)

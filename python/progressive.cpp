@@ -83,7 +83,7 @@ void build_with(ProgressiveImage& image, const py::object& progress, Make&& make
         throw py::value_error(one_line(image.error()));
 }
 
-/// A file of another format, straight into memory of our own.
+/// Reads a file of another format into memory of our own.
 std::shared_ptr<ImageBuf> read_picture(const std::string& filename, std::string& error)
 {
     auto pixels = std::make_shared<ImageBuf>(filename);
@@ -108,7 +108,7 @@ std::shared_ptr<ImageBuf> read_pimg(OIIO::ImageInput& input, const std::string& 
 
 py::object filtered(const ProgressiveImage& image, Form form, const BoundFilter& filter, OIIO::ROI roi, int nthreads)
 {
-    // What lies outside has no pixels, and no bound.
+    // The part of a region outside of the picture has no pixels, and could be of any size.
     const OIIO::ROI whole = OIIO::get_roi(image.spec());
     if (roi.defined()) {
         roi.chend = std::min(roi.chend, whole.chend);
@@ -198,7 +198,7 @@ void save(const Progressive& progressive, const std::string& filename, const Opt
             error = output->geterror();
             error = error.empty() ? progressive.pixels->geterror() : error;
         }
-        // What will be read under this name is the new file.
+        // OpenImageIO's cache may still hold the old file of this name.
         OIIO::ImageCache::create(true)->invalidate(OIIO::ustring(filename), true);
     }
     if (!error.empty())

@@ -8,8 +8,8 @@ namespace python {
 
 namespace {
 
-template<class Text, std::size_t count>
-const Text& find(const Text (&texts)[count], const std::string& name)
+template<class Text, std::size_t Count>
+const Text& find(const Text (&texts)[Count], const std::string& name)
 {
     for (const Text& text : texts)
         if (text.name == name)

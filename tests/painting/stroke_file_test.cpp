@@ -3,17 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include "painting/text.h"
+
 using namespace pimg;
+using namespace pimg::test;
 
 namespace {
-
-std::size_t count_of(const std::string& word, const std::string& text)
-{
-    std::size_t count = 0;
-    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
-        ++count;
-    return count;
-}
 
 Strokes two_strokes()
 {

@@ -48,8 +48,8 @@ private:
     float m_cover[kTile * kTile] = {};                     ///< share of each pixel that the line covers
 };
 
-/// A pixel is taken for a square that lies along the line: what the line covers of it is then the overlap of two
-/// intervals. So lines narrower than a pixel are as dark as they should be.
+/// Each pixel counts as a square turned in the direction of the line, so that the share the line covers is the overlap
+/// of two intervals. Lines narrower than a pixel thus become as dark as they should be.
 void TilePen::cover(const InkPoint& a, const InkPoint& b)
 {
     const float reach = 0.5f * std::max(a.width, b.width) + 1.0f;
@@ -93,7 +93,8 @@ void TilePen::blend(Index ink)
     }
 }
 
-/// Distance of p from the segment a - b in the plane, and of its width from that of the segment there: the larger one.
+/// The larger of two numbers: the distance of p from the segment a - b, and how far its width is from that of the
+/// segment at the nearest place.
 float distance(const InkPoint& p, const InkPoint& a, const InkPoint& b)
 {
     const float dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
@@ -153,7 +154,7 @@ public:
         bool at_end;  ///< the last point, else the first
     };
 
-    /// Takes the line that has the end nearest to p away; the number of lines that are left may not be 0.
+    /// Removes the line that has the end nearest to p, and returns that end. There must be a line left.
     End take_nearest(const InkPoint& p);
     bool empty() const { return m_left == 0; }
 

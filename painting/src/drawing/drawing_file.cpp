@@ -44,7 +44,7 @@ void append_cap(std::string& svg, double radius, double x, double y)
     append_place(svg, x, y);
 }
 
-/// Along one side of the line and back along the other.
+/// The outline of a line: along one of its sides and back along the other.
 void append_outline(std::string& svg, const InkPoint* p, Index count, const Placing& placing)
 {
     const auto side = [&](Index k, float sign, double& x, double& y) {
@@ -110,8 +110,13 @@ std::string sheet(const Drawing& drawing, const Paper& paper, const std::string&
     svg += "\">\n" + behind;
     for (std::size_t ink = drawing.inks.size(); ink-- > 0;) {
         const std::string number = std::to_string(ink + 1);
-        svg += "<g inkscape:groupmode=\"layer\" id=\"ink-" + number + "\" inkscape:label=\"" + number + "-ink\" "
-            + attributes(hexadecimal(drawing.inks[ink])) + ">\n";
+        svg += "<g inkscape:groupmode=\"layer\" id=\"ink-";
+        svg += number;
+        svg += "\" inkscape:label=\"";
+        svg += number;
+        svg += "-ink\" ";
+        svg += attributes(hexadecimal(drawing.inks[ink]));
+        svg += ">\n";
         for (const InkLine& line : drawing.lines)
             if (line.ink == ink)
                 append(svg, line);

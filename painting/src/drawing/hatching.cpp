@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Evenly spaced streamlines (Jobard and Lefer 1997), with a distance that follows the tone. A raster holds, for the
-// surroundings of all lines, how far the nearest line is.
+// Evenly spaced streamlines (Jobard and Lefer 1997) whose distance depends on the tone. A raster holds for each pixel
+// near a line how far the nearest line is.
 #include "drawing/hatching.h"
 
 #include <algorithm>
@@ -18,17 +18,17 @@ namespace {
 constexpr float kFieldCell = 8.0f;   ///< pixels of the picture to one of the field; more: calmer
 constexpr float kFieldNoise = 8.0f;  ///< see DirectionField; more: only strong forms turn the lines
 constexpr float kFieldSigma = 2.0f;  ///< of the last filter, in pixels of the field; more: calmer
-constexpr double kDiagonal = -50.0 * elementary::kPi / 180.0;  ///< as a right hand hatches
+constexpr double kDiagonal = -50.0 * elementary::kPi / 180.0;  ///< the direction in which a right hand hatches
 constexpr float kLightest = 0.7f, kDarkest = 1.3f;  ///< widths in pens of lines in the lightest and the darkest tone
 constexpr float kCloser = 0.88f;      ///< share of an even distance, to make up for gaps: measured, see internals.md
 constexpr float kNarrows = 0.62f;     ///< share of the distance at which a line ends; more: shorter, more even lines
 constexpr float kRoom = 0.97f;        ///< share of the distance a new line needs; more: more gaps
 constexpr float kLength = 60.0f;      ///< in pens, most
 constexpr float kUneven = 0.45f;      ///< largest random change of the length, as a share of it
-constexpr float kChanceCell = 8.0f;   ///< in pens: of a place, for random changes
+constexpr float kChanceCell = 8.0f;   ///< side, in pens, of the squares in which random changes are the same
 constexpr float kShortest = 2.5f;     ///< in pens
 constexpr float kStraight = 0.85f;    ///< cosine of the sharpest turn in a step
-constexpr float kTurned = 0.94f;      ///< share of a full circle's steps' turns: a line ends before it meets itself
+constexpr float kTurned = 0.94f;      ///< share of a full turn after which a line ends, so that it does not meet itself
 constexpr float kToneChange = 0.45f;  ///< change of the cover at which a line ends; more: lines cross shadows
 constexpr float kAnchors = 40.0f;     ///< distance of the first lines in pens; less: steadier, but more seams
 constexpr float kTaper = 5.0f;        ///< length of a tapered end in pens
@@ -122,7 +122,7 @@ bool Streamlines::grow(Vec2 start, float share)
 {
     if (!is_free(start, share, ink_at(start)))
         return false;
-    // Of the place, not of the number of the line, which is another when a line somewhere else is missing.
+    // Chance depends on the place, and not on the number of the line, which changes if a line elsewhere is missing.
     const float cell = kChanceCell * m_layer.pen;
     const std::uint32_t chance =
         scramble(std::uint32_t(start.x / cell) + scramble(std::uint32_t(start.y / cell) + scramble(m_layer.seed)));
@@ -146,7 +146,7 @@ bool Streamlines::grow(Vec2 start, float share)
     return true;
 }
 
-/// Notes how far the line is for all pixels nearer than the distance to the next.
+/// Notes how far the line is, for all pixels that are nearer to it than the next line may be.
 void Streamlines::claim(const InkLine& line)
 {
     const int w = m_cover.width, h = m_cover.height;
@@ -179,8 +179,8 @@ void Streamlines::grow_beside_lines()
     }
 }
 
-/// Lines at fixed places, so that another resolution of the picture begins with the same ones; then lines beside lines,
-/// until there is no more room; then one wherever there is room still.
+/// First lines at fixed places, which are the same at every resolution of the picture; then lines beside lines until
+/// there is no more room; then a line wherever there is still room.
 void Streamlines::fill()
 {
     constexpr int kStep = 2;
@@ -202,6 +202,7 @@ FormField::FormField(const std::vector<Raster>& base, float calm, const Parallel
     const int w = base[0].width, h = base[0].height;
     const int columns = std::max(2, int(float(w) / kFieldCell)), rows = std::max(2, int(float(h) / kFieldCell));
     std::vector<Raster> small;
+    small.reserve(base.size());
     ChannelsView view { columns, rows, {} };
     for (const Raster& channel : base)
         small.push_back(resampled(channel.samples.data(), w, h, columns, rows, parallel));

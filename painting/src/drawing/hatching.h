@@ -11,8 +11,8 @@ namespace pimg {
 /// Directions of hatching: those of the large forms of a picture, without its grain, with a preference for a diagonal.
 class FormField {
 public:
-    /// `base` are up to three channels in 8-bit steps. `calm`, 0 or more, is how much the diagonal counts beside a clear
-    /// direction of the picture, which counts 1.
+    /// `base` are up to three channels in 8-bit steps. `calm`, 0 or more, is how much the diagonal counts beside a
+    /// clear direction of the picture, which counts 1.
     FormField(const std::vector<Raster>& base, float calm, const ParallelFor& parallel);
 
     /// The unit vector of the direction at p, without a sign.
@@ -39,8 +39,8 @@ struct HatchLayer {
 /// Adds a layer of lines to a drawing of the rasters' size, as wide as the tone asks for.
 void add_hatching(const FormField& field, const HatchLayer& layer, Drawing& drawing);
 
-/// Share of its width that the k-th of `count` points of a line has, since its ends taper, where the drawing covers the
-/// share `cover` of the paper. Points are a pixel apart.
+/// Factor on the width of a line at its k-th of `count` points, which are a pixel apart: the ends of lines taper, the
+/// less so the larger the share `cover` of the paper that the drawing is to cover there.
 float taper_at(Index k, Index count, float pen, float cover);
 
 }  // namespace pimg

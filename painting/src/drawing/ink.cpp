@@ -92,7 +92,7 @@ Raster seen(const Drawing& drawing, const Plate& plate, const ParallelFor& paral
     return paper;
 }
 
-/// What the two directions of hatching are to cover, beside the outlines.
+/// The shares of the paper that the two directions of hatching are to cover in addition to the outlines.
 struct Covers {
     Raster first, second;
 };
@@ -110,7 +110,8 @@ Covers find_covers(const Plate& plate, const Raster& outlined, const PenOptions&
         const float all = (1.0f - wanted) / std::max(paint, 0.05f);
         float& first = covers.first.samples[i];
         first = std::min(all, kMostAlone);
-        // The second direction is of the first ink, which is black: it darkens what the first left.
+        // The second direction always has the first ink, which is black, and adds the darkness that the first did not
+        // reach.
         if (crossed && all > kOneWay) {
             first = std::min(kMostOfOne, kOneWay + kBelowCross * (all - kOneWay));
             covers.second.samples[i] = std::clamp(1.0f - wanted / (1.0f - first * paint), 0.0f, kMostAcross);
@@ -173,7 +174,7 @@ void match_tone(const Plate& plate, const Drawing& outlines, const PenOptions& o
                 const float is = std::clamp(shown.samples[at], 0.02f, 0.995f);
                 const float should = std::clamp(wanted.samples[at], 0.03f, 1.0f);
                 const float more = float(elementary::log2(double(should)) / elementary::log2(double(is)));
-                // What a line covers grows as its width, what a dot covers as its square.
+                // A line covers an area in proportion to its width, a dot one in proportion to the square of it.
                 const float factor = std::clamp(line.count > 1 ? more : std::sqrt(more), kThinner, kThicker);
                 const float share = line.count > 1 ? taper_at(k, line.count, plate.pen, 1.0f - should) : 1.0f;
                 p[k].width =
@@ -243,7 +244,7 @@ Status plan_ink(const Hierarchy&, const float* darkness, const DirectionField& f
                                   scramble(Index(lines.strokes.size()) + scramble(options.seed)) });
         for (Index k = 0; k < line.count; ++k)
             lines.points.push_back({ p[k].x, p[k].y });
-        if (line.count == 1)  // strokes have two points or more
+        if (line.count == 1)  // a dot; strokes have two points or more
             lines.points.push_back({ p[0].x + 0.01f, p[0].y });
     }
     return {};

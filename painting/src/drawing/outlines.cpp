@@ -3,8 +3,8 @@
 //
 //     channels -> slopes -> structure tensor -> direction along the edge -> slope across it, mean along it -> ridges
 //
-// The mean along the edge, as in flow-based differences of Gaussians (Kang, Lee and Chui 2007), keeps what runs on and
-// loses what does not.
+// The mean along the edge, as in flow-based differences of Gaussians (Kang, Lee and Chui 2007), keeps edges that run on
+// and removes texture.
 #include "drawing/outlines.h"
 
 #include <algorithm>
@@ -29,8 +29,8 @@ constexpr float kAlongSigma = 2.5f;   ///< of the weights of these steps
 constexpr float kLeastEnergy = 1.0f;  ///< squared slope below which nothing is looked at; more: faster
 constexpr float kAround = 8.0f;       ///< standard deviation in pixels of what is around an edge
 constexpr float kAlone = 1.3f,
-                kInhibition = 1.4f;           ///< of a mean slope around, in slopes of the edge: 0.12 for one alone
-constexpr float kLeastAlone = 0.15f;          ///< share of its importance that an edge keeps; more: busier places
+                kInhibition = 1.4f;           ///< weight of the mean slope around: 0.12 of the own one if alone
+constexpr float kLeastAlone = 0.15f;          ///< least share of its importance that an edge keeps; more: busier places
 constexpr float kStart = 6.0f;                ///< slope at which a line may start; more: fewer lines
 constexpr float kGoOn = 2.6f;                 ///< slope down to which it goes on; more: shorter lines
 constexpr int kGap = 4;                       ///< steps with less than that which a line crosses; more: longer lines
@@ -81,7 +81,8 @@ public:
         return { m_along_x.samples[at], m_along_y.samples[at] };
     }
     float slope(Vec2 p) const { return between(m_slope, p); }
-    /// Geometric mean of the slopes in both pictures, less amid other edges: those of leaves and gravel inhibit each other.
+    /// Geometric mean of the slopes in both pictures. It is reduced where there are other edges around, so that the
+    /// edges of leaves and gravel suppress each other.
     float importance(Vec2 p) const
     {
         const float slope = between(m_slope, p), around = between(m_around, p);
@@ -128,7 +129,8 @@ void Edges::find_directions(const ParallelFor& parallel)
     xy = blurred(xy, kTensorSigma, parallel);
     m_energy = m_along_x = m_along_y = make_raster(xx.width, xx.height);
     in_batches(parallel, xx.samples.size(), [&](std::size_t i) {
-        // Twice the angle along the edge is opposite to twice that across it.
+        // The directions along and across an edge are at 90 degrees, so twice their angles point in opposite
+        // directions.
         const Vec2 d = half_angle(yy.samples[i] - xx.samples[i], -2.0f * xy.samples[i]);
         m_energy.samples[i] = xx.samples[i] + yy.samples[i];
         m_along_x.samples[i] = d.x;
@@ -136,13 +138,13 @@ void Edges::find_directions(const ParallelFor& parallel)
     });
 }
 
-/// Signed slopes of each channel, so that those of texture cancel.
+/// Averages slopes with their signs, channel by channel, so that the slopes of texture cancel.
 void Edges::average_along(int x, int y)
 {
     const std::size_t centre = std::size_t(y) * std::size_t(m_slope.width) + std::size_t(x);
     if (m_energy.samples[centre] < kLeastEnergy)
         return;
-    static const std::array<float, kAlong> kWeights = [] {
+    static const std::array<float, kAlong> bell = [] {
         std::array<float, kAlong> weights {};
         for (int k = 0; k < kAlong; ++k)
             weights[std::size_t(k)] =
@@ -164,7 +166,7 @@ void Edges::average_along(int x, int y)
                 d = cosine < 0.0f ? Vec2 { -next.x, -next.y } : next;
             }
             const std::size_t at = pixel_at(m_slope, p);
-            const float weight = kWeights[std::size_t(k)], nx = -sign * d.y, ny = sign * d.x;
+            const float weight = bell[std::size_t(k)], nx = -sign * d.y, ny = sign * d.x;
             total += weight;
             for (std::size_t c = 0; c < m_features.size(); ++c) {
                 sums[c] += weight * (nx * m_features[c].x.samples[at] + ny * m_features[c].y.samples[at]);
@@ -196,7 +198,7 @@ public:
 
 private:
     struct Mark {
-        int line, step;  ///< what runs through the pixel; -1: nothing
+        int line, step;  ///< number of the line through the pixel, and of its step there; -1: none
     };
     struct Side {
         std::vector<InkPoint> points;  ///< the width is the importance until the line is finished
@@ -239,10 +241,10 @@ std::vector<std::size_t> Tracer::starts() const
     return starts;
 }
 
-/// The top of a parabola through three slopes across the ridge.
+/// Moves p towards the top of a parabola through three slopes across the ridge.
 Vec2 Tracer::onto_ridge(Vec2 p, Vec2 along) const
 {
-    constexpr float kPull = 0.7f;  // all the way would make lines jump where ridges meet
+    constexpr float kPull = 0.7f;  // moving all the way would make lines jump where ridges meet
     const Vec2 across { -along.y, along.x };
     const float here = m_edges.slope(p), left = m_edges.slope({ p.x - across.x, p.y - across.y }),
                 right = m_edges.slope({ p.x + across.x, p.y + across.y });
@@ -302,7 +304,7 @@ bool Tracer::is_drawn(const std::vector<InkPoint>& points) const
     return sum >= m_scale * kLeastSum && float(points.size()) >= m_scale * kShortest * m_options.pen;
 }
 
-/// Marks what is so near to a line that another would touch it.
+/// Marks the pixels around a line where another line would touch it.
 void Tracer::keep_away(const std::vector<InkPoint>& points)
 {
     constexpr int kNear = 2;
@@ -355,7 +357,8 @@ void Tracer::trace()
         if (m_marks[start].line >= 0)
             continue;
         const Index width = Index(m_edges.slopes().width);
-        const Vec2 place { float(Index(start) % width), float(Index(start) / width) };
+        const Index column = Index(start) % width, row = Index(start) / width;
+        const Vec2 place { float(column), float(row) };
         m_walked.clear();
         Side back = follow(place, -1), forth = follow(place, 1);
         std::vector<InkPoint> points(back.points.rbegin(), back.points.rend());

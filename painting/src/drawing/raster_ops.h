@@ -42,8 +42,8 @@ inline float between(const Raster& raster, Vec2 p)
     return (1 - wy) * ((1 - wx) * a[0] + wx * a[right]) + wy * ((1 - wx) * b[0] + wx * b[right]);
 }
 
-/// The unit vector of a direction that is stored as (cos 2a, sin 2a) times any number above 0: half of its angle, by the
-/// half-angle formulas. (1, 0) for (0, 0).
+/// The unit vector of a direction that is stored as (cos 2a, sin 2a) times any number above 0: half of its angle, by
+/// the half-angle formulas. (1, 0) for (0, 0).
 inline Vec2 half_angle(float doubled_cosine, float doubled_sine)
 {
     const float length = std::sqrt(doubled_cosine * doubled_cosine + doubled_sine * doubled_sine);
@@ -56,7 +56,7 @@ inline Vec2 half_angle(float doubled_cosine, float doubled_sine)
 /// its mirror image, so that the mean at the border is one of places near it, not of the border's own pixels.
 Raster blurred(const Raster& raster, float sigma, const ParallelFor& parallel);
 
-/// A picture of width x height samples in another size: tents as wide as the larger of the two pixels.
+/// Resizes a picture of width x height samples, with tent filters as wide as the larger of the two pixels.
 Raster resampled(const float* samples, int width, int height, int new_width, int new_height,
                  const ParallelFor& parallel);
 

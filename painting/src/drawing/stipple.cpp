@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Error diffusion says how many dots there are and about where; Lloyd's method spreads them evenly.
+// Error diffusion decides how many dots there are and where about; Lloyd's method spreads them evenly.
 #include "drawing/stipple.h"
 
 #include <algorithm>
@@ -13,16 +13,16 @@ namespace pimg {
 
 namespace {
 
-constexpr int kSteps = 16;                          ///< of Lloyd's method; more: more even, and slower in proportion
-constexpr float kReach = 2.0f;                      ///< of a dot's cell, in radii of a disk of the area it should have
-constexpr float kLight = 1.0f, kDark = 1.6f;        ///< widths in pens of dots in light and dark tones, by eye
+constexpr int kSteps = 16;                    ///< of Lloyd's method; more: more even, and slower in proportion
+constexpr float kReach = 2.0f;                ///< of a dot's cell, in radii of a disk of the area that it should have
+constexpr float kLight = 1.0f, kDark = 1.6f;  ///< widths in pens of dots in light and dark tones, by eye
 constexpr float kNarrowest = 0.7f, kWidest = 2.2f;  ///< and at least and at most
 constexpr float kJitter = 0.5f;                     ///< pixels; breaks the patterns of error diffusion
 
 /// A cell of the diagram: sums over its pixels.
 struct Cell {
-    float weight = 0.0f, x = 0.0f, y = 0.0f;  ///< of the dots that belong there, and times their places
-    float cover = 0.0f;                       ///< of the paper, in pixels
+    float weight = 0.0f, x = 0.0f, y = 0.0f;  ///< sums of the density, and of the density times x and y
+    float cover = 0.0f;                       ///< area that the dot should cover, in pixels
 };
 
 class Stippler {
@@ -107,8 +107,9 @@ void Stippler::assign()
             Cell& cell = m_cells[owner[at]];
             const float density = m_density.samples[at];
             cell.weight += density;
-            cell.x += density * float(at % std::size_t(w));
-            cell.y += density * float(at / std::size_t(w));
+            const std::size_t column = at % std::size_t(w), row = at / std::size_t(w);
+            cell.x += density * float(column);
+            cell.y += density * float(row);
             cell.cover += m_cover.samples[at];
         }
 }
