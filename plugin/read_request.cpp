@@ -37,7 +37,7 @@ std::vector<std::string> keys_of()
     return keys;
 }
 
-/// set_option(), telling keys that are not in the table from bad values.
+/// As set_option(), but tells keys that are not in the table from values that are wrong.
 template<class Options>
 bool set_if_known(Options& options, const std::string& key, const std::string& value, bool& known, std::string& error)
 {
@@ -56,8 +56,8 @@ bool parse_switch(const std::string& key, const std::string& value, bool& on, st
 
 // ---- filters ----------------------------------------------------------------------------------------------------
 
-/// Readers are asked for floating-point numbers, which OpenImageIO would scale to 0..1: labels are made floats as they
-/// are.
+/// Converts labels to floats of the same value. OpenImageIO would scale whole numbers to 0..1 when a reader is asked
+/// for floats.
 bool labels_to_float(ImageBuf& labels)
 {
     ImageSpec spec = labels.spec();
@@ -180,7 +180,8 @@ bool ReadRequest::bind(std::string& error)
     if (!m_filter->bind(m_texts, m_bound, error))
         return false;
     if (!m_bound.written.empty())  // opening a file to read must not write another
-        error = format("{}: pimgtool {} writes it, reading a file cannot", m_bound.written, m_filter->command);
+        error =
+            format("{}: reading a picture cannot write a file; pimgtool {} can", m_bound.written, m_filter->command);
     return error.empty();
 }
 

@@ -23,7 +23,7 @@ Status Decoder::File::show(const SamplePoints& points, std::uint32_t column, std
     return status;
 }
 
-/// Channels first ... of a tile, exactly.
+/// Reads the exact samples of the channels of a tile that are coded together, from number `first` on.
 Status Decoder::File::read_group(ByteReader& in, const SamplePoints& points, std::uint32_t column, std::uint32_t row,
                                  std::size_t first, TileGroup& group) const
 {
@@ -58,7 +58,7 @@ Status Decoder::File::read_group(ByteReader& in, const SamplePoints& points, std
     return {};
 }
 
-/// Undoes the colour transform of channels first ... and hands out their samples.
+/// Undoes the colour transform of the channels from number `first` on, and hands out their samples.
 void Decoder::File::finish(std::vector<std::vector<std::int32_t>>& group, std::size_t first, std::uint32_t width,
                            std::uint32_t height, bool exact, const std::vector<StridedChannel>& channels) const
 {
@@ -83,7 +83,7 @@ Status Decoder::File::tile(std::uint32_t column, std::uint32_t row, const std::v
     if (exact) {
         Chunk chunk;
         if (!chunk_at(tile_offsets[number], chunk, status))
-            return Status::failure("pimg: the file shrank");
+            return Status::failure("pimg: the file became shorter while it was read");
         status = payload(chunk, bytes);
         if (!status)
             return status;

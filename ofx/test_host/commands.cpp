@@ -170,7 +170,7 @@ public:
         }
         const std::string button = m_words.option("press");
         if (!button.empty() && m_instance->press(button, time()) != kOfxStatOK) {
-            error = "the button had no success";
+            error = "the effect reported no success of the button";
             return false;
         }
         if (m_words.number("show", 0) != 0)

@@ -58,7 +58,7 @@ bool output_file(const Call& call, Program& program, std::string& error)
     if (!pimg::set_options(options, keys.keys, error))
         return false;
     if (!keys.keys.empty() && !has_pimg_extension(filename)) {
-        error = format("{} is for .pimg files, \"{}\" is none", keys.keys[0].first, filename);
+        error = format("{}: expected a .pimg file, not \"{}\"", keys.keys[0].first, filename);
         return false;
     }
     if (!can_write(filename, error)) {

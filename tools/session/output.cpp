@@ -31,8 +31,8 @@ using OIIO::TypeDesc;
 namespace Filesystem = OIIO::Filesystem;
 using pimg::format;
 
-/// Names of the files being written, for the signal handler: interrupted work leaves nothing behind either. Frames
-/// that are worked on together write one each.
+/// The most files that are written at the same time, one by each frame. Their names are kept for the signal handler, so
+/// that interrupted work leaves nothing behind.
 constexpr int kUnfinished = 256;
 char unfinished_files[kUnfinished][4096];
 std::mutex unfinished_mutex;
@@ -54,7 +54,8 @@ void on_interruption(void (*handler)(int))
             std::signal(signal, SIG_IGN);
 }
 
-/// A name beside that of a file to be written; what bears it is removed unless it was kept.
+/// A temporary name in the folder of the file to be written. A file of this name is removed in the end, unless it was
+/// renamed.
 class TemporaryName {
 public:
     explicit TemporaryName(const std::string& target) : m_name(pimg::SafeFile::temporary_name(target))
@@ -104,7 +105,7 @@ bool open_part(ImageOutput& out, const std::string& filename, const Parts& parts
     return out.open(filename, int(specs.size()), specs.data());
 }
 
-/// Hands the pixels to a writer and everything it says to `error`.
+/// Gives the pixels to a writer. Its messages go to `error`.
 bool write_through(ImageOutput& out, const Parts& parts, const std::string& filename, const Progress& progress,
                    std::string& error)
 {
@@ -125,7 +126,7 @@ bool write_through(ImageOutput& out, const Parts& parts, const std::string& file
             error = out.geterror();
             return false;
         }
-        out.geterror();  // of metadata left out, which is no failure
+        out.geterror();  // about metadata that was left out, which is no failure
         written = pixels.write(&out, show, &share);
         if (!written)
             error = pixels.has_error() ? pixels.geterror() : out.geterror();
@@ -134,7 +135,7 @@ bool write_through(ImageOutput& out, const Parts& parts, const std::string& file
     if (written && !closed)
         error = out.geterror();
     if (!(written && closed) && error.empty())
-        error = format("the writer of {} gave up without saying why", out.format_name());
+        error = format("the writer of {} failed without giving a reason", out.format_name());
     return written && closed;
 }
 
@@ -159,16 +160,16 @@ bool is_readable(const std::string& filename, const Parts& parts)
     return fine;
 }
 
-/// Whether a writer can write through a file of ours. OpenImageIO 2.4's for TIFF says so and loses its directory; without,
-/// it reports what fails.
+/// Whether a writer can write through a file of ours. OpenImageIO 2.4's writer of TIFF says that it can, but then loses
+/// the directory of the file; writing by itself it reports errors reliably.
 bool takes_proxy(const ImageOutput& out)
 {
     return out.supports("ioproxy") && std::string(out.format_name()) != "tiff";
 }
 
-/// Writes a file that replaces `target` when all of it is on disk. Not every writer says that the disk was full: those
-/// that can write through a file of ours, others are given the benefit of a doubt only if there was room for more and
-/// the end of the file can be read.
+/// Writes a file that replaces `target` when all of it is on disk. Writers that write through a file of ours report a
+/// full disk. Others may not; what they wrote counts only if there was room for more and the end of the file can be
+/// read.
 bool write_safely(ImageOutput& out, const Parts& parts, const std::string& target, const std::string& temporary,
                   const Progress& progress, std::string& error)
 {
@@ -282,7 +283,7 @@ bool can_write(const std::string& filename, std::string& error)
         error = "it is a directory";
     else if (!create_output(filename))
         error = format("no image format that OpenImageIO can write has the extension \".{}\"", extension);
-    OIIO::geterror();  // said above in fewer words
+    OIIO::geterror();  // replaced by the shorter message above
     return error.empty();
 }
 

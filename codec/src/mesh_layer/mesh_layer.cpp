@@ -219,7 +219,7 @@ Status MeshLayerReader::read_batches(const std::uint8_t* data, std::size_t size)
                 return Status::failure("pimg: a split does not fit the mesh");
         }
         if ((m_layer.mesh.size() - vertices) * std::uint64_t(kSparsestBatch) < vertices)
-            return Status::failure("pimg: a batch splits next to nothing");
+            return Status::failure("pimg: a batch of splits has too few of them");
     }
     if (m_layer.mesh.size() != after || in.overrun())
         return Status::failure("pimg: a batch of splits is damaged");

@@ -263,9 +263,9 @@ InitialMesh triangulate(std::vector<Index> pixels, const Guide& guide)
 Status sample(const Guide& guide, const SamplingOptions& options, InitialMesh& mesh)
 {
     if (guide.width < 2 || guide.height < 2 || guide.channels.empty())
-        return Status::failure("sampling needs a guide of 2 x 2 pixels or more");
+        return Status::failure("guide: expected 2 x 2 pixels or more for an adaptive mesh");
     if (!(options.density > 0.0 && options.density <= 1.0))
-        return Status::failure("density must be above 0 and at most 1");
+        return Status::failure("density: expected a number above 0, at most 1");
     const auto go_on = [&](float done) {
         return !options.progress || options.progress(done);
     };
@@ -279,7 +279,7 @@ Status sample(const Guide& guide, const SamplingOptions& options, InitialMesh& m
     std::vector<float>().swap(map);
     constexpr std::size_t kMost = 700'000'000;  // six half-edges each, numbered in 32 bits
     if (pixels.size() > kMost)
-        return Status::failure("more than 7e8 samples: choose a lower density");
+        return Status::failure("density: expected at most 7e8 vertices, choose a lower one");
     if (!go_on(0.4f))
         return Status::failure("building was stopped");
     mesh = triangulate(std::move(pixels), guide);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The driver of the simplification. Locality is what it costs, not arithmetic: so there is no global
-// queue. Tiles are visited in order, each is collapsed up to a cost limit while it sits in the cache, and the limit
-// rises from sweep to sweep; inside a tile it rises in finer steps. Keys are lazy: a vertex is
-// evaluated again only when its old cost comes up. Why this loses no quality: docs/internals.md.
+// The driver of simplification. Access to memory takes its time, not arithmetic, so there is no global queue. Tiles are
+// visited in order, and each is collapsed up to a cost limit while it is in the cache. The limit rises from sweep to
+// sweep; inside a tile it rises in finer steps. Keys are lazy: a vertex is evaluated again only when the limit reaches
+// its old cost. docs/internals.md shows why this loses no quality.
 #include <pimg/channels.h>
 #include <pimg/detail/parallel.h>
 #include <pimg/simplify.h>
@@ -87,7 +87,7 @@ bool Simplifier::sweep(float limit)
         if (!report())
             return false;
     }
-    // What reached beyond its tile's zone, alone and in order.
+    // Collapses that reach beyond the zone of their tile: one after the other, by one thread.
     std::vector<Index> deferred;
     deferred.swap(m_deferred);
     collapse_listed(m_mesh, deferred, { kEverywhere, limit, m_guard }, m_outputs[0]);
@@ -184,7 +184,7 @@ Status check(const Guide& guide)
         || std::uint64_t(guide.width) * std::uint64_t(guide.height) > (1ull << 31))
         return Status::failure("the picture is larger than 2^20 pixels a side or 2^31 in all");
     if (guide.channels.empty() || guide.channels.size() > std::size_t(kMaxGuideChannels))
-        return Status::failure("a guide needs 1 to " + std::to_string(kMaxGuideChannels) + " channels");
+        return Status::failure("guide: expected 1 to " + std::to_string(kMaxGuideChannels) + " channels");
     for (const GuideChannel& c : guide.channels)
         if (!c.samples || !(c.weight > 0.0f) || !std::isfinite(c.weight))
             return Status::failure("a guide channel has no samples or a weight that is not positive");
