@@ -31,7 +31,7 @@ struct Operation {
     struct State* state;
 };
 
-/// What the mutex guards is copied before it is worked with: nobody holds the lock while the filter's threads run.
+/// Guarded by the mutex. It is copied before use, so that nobody holds the lock while the threads of a filter run.
 struct State {
     std::mutex mutex;
     pimg::OptionTexts texts;       ///< properties that have been set
@@ -63,7 +63,7 @@ const OperationClass* class_of(void* object)
 
 // ---- properties -------------------------------------------------------------------------------------------
 
-/// GEGL's names have dashes.
+/// Names of GEGL have dashes in place of underscores.
 std::string dashed(std::string name)
 {
     std::replace(name.begin(), name.end(), '_', '-');
@@ -176,7 +176,8 @@ bool is_picture(const GeglRectangle& box)
     return box.width > 0 && box.height > 0 && !gegl_rectangle_is_infinite_plane(&box);
 }
 
-/// All of the picture, which the hierarchy is built of. An input that is none is passed on: only what is asked for.
+/// The region of the input that is needed: all of it, because the hierarchy is built from the whole picture. Of an
+/// input that is no picture, and is passed on unchanged, only what is asked for.
 GeglRectangle needed(GeglOperation* operation, const GeglRectangle* roi)
 {
     const GeglRectangle box = whole_input(operation);
@@ -222,7 +223,7 @@ OIIO::ImageBuf pixels_of(GeglBuffer* input, const GeglRectangle& box, const Babl
     return pixels;
 }
 
-/// The progressive image of these pixels: the one at hand, unless they are others than the last time.
+/// Finds the progressive image of these pixels: the one of the last time if the pixels are the same, else a new one.
 bool find_image(State& state, const OIIO::ImageBuf& pixels, pimg::ProgressiveImage& image, std::string& error)
 {
     const std::string_view bytes(static_cast<const char*>(pixels.localpixels()), pixels.spec().image_bytes());
@@ -333,9 +334,9 @@ void init_class(gpointer klass, gpointer filter)
     operation->get_cached_region = get_cached_region;
     operation->get_invalidated_by_change = get_invalidated_by_change;
     operation->process = process_or_pass;
-    operation->threaded = FALSE;  // threads are the filter's
+    operation->threaded = FALSE;  // the filter uses threads itself
     GEGL_OPERATION_FILTER_CLASS(klass)->process = process;
-    // No licence: GEGL hides operations that state one it does not list.
+    // No licence is stated: GEGL hides operations whose licence is not on its list.
     const std::string name = "pimg:" + dashed(self->filter->name);
     const std::string title = pimg::title_of(*self->filter), summary = pimg::label_of(self->filter->summary);
     gegl_operation_class_set_keys(operation, "name", name.c_str(), "title", title.c_str(), "categories", "pimg",

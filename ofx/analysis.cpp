@@ -16,11 +16,11 @@ namespace {
 using pimg::Anchors;
 using pimg::HdrCompressOptions;
 
-/// A sequence of more frames than this is no shot; pimgtool has the same limit.
+/// The most frames of a shot; pimgtool has the same limit.
 constexpr int kMostFrames = 100000;
 
-/// The options of the frame with everything that is found in its picture written in. `anew`: also dmax, key and white,
-/// though they are given.
+/// Reads the options of a frame and fills in everything that is found from its picture. `anew`: dmax, key and white are
+/// found, too, even if they are given.
 bool find(const Instance& instance, OfxTime time, bool anew, HdrCompressOptions& options, std::string& error)
 {
     OfxRectD region {};

@@ -8,7 +8,7 @@ namespace pimg_ofx {
 
 namespace {
 
-/// How often somebody who waits asks whether the host wants to stop; an abort is to take effect within 50 ms.
+/// How often a waiting thread asks whether the host wants to stop. An abort is to take effect within 50 ms.
 constexpr std::chrono::milliseconds kPatience(10);
 
 /// In 2^20 bytes: about twenty hierarchies of pictures of one megapixel.

@@ -10,7 +10,7 @@ namespace pimg_ofx {
 
 namespace {
 
-/// Numbers above this are ranges without an end in the tables, and need a shorter slider.
+/// Ranges that end above this number have no real end, and need a shorter slider.
 constexpr double kLongSlider = 1000.0;
 
 // Groups of parameters, and the one page.
@@ -140,7 +140,7 @@ void define_option(Definer& definer, const Parameter& parameter)
         const bool file = option.file == pimg::FileUse::read;
         p.set(kOfxParamPropStringMode, std::string(file ? kOfxParamStringIsFilePath : kOfxParamStringIsSingleLine));
         if (file)
-            p.set(kOfxParamPropStringFilePathExists, 0);  // it may be a word, too
+            p.set(kOfxParamPropStringFilePathExists, 0);  // because the text may also be a word
     }
 }
 
@@ -217,7 +217,7 @@ void set_depths(const Properties& host, const Properties& effect)
     for (const char* depth : { kOfxBitDepthFloat, kOfxBitDepthHalf, kOfxBitDepthShort, kOfxBitDepthByte }) {
         if (!has(depth))
             continue;
-        // The name of half is younger than some hosts; who states no depths is not asked for it.
+        // Some hosts are older than the name of half, so a host that lists no depths is not offered it.
         if (depth == std::string(kOfxBitDepthHalf) && offered.empty())
             continue;
         effect.set(kOfxImageEffectPropSupportedPixelDepths, std::string(depth), i++);

@@ -25,7 +25,7 @@ Parameter parameter(const pimg::OptionInfo& option, Owner owner)
     return result;
 }
 
-/// Files are not written by a render, which a host starts in any order, on many threads, and as often as it likes.
+/// Options that write files are not offered: a host renders in any order, on many threads, and as often as it likes.
 bool is_offered(const pimg::OptionInfo& option)
 {
     return option.file != pimg::FileUse::written;

@@ -83,13 +83,13 @@ std::string Instance::number_text(const Parameter& parameter, OfxTime time, doub
         return "";
     if (parameter.is_length())
         given *= scale;
-    // Hosts may hand out what is beyond the range they were told.
+    // Hosts may give values outside of the range that they were told.
     if (option.min != option.max)
         given = std::clamp(given, option.min, option.max);
     if (whole)
         return given == parameter.preset() ? "" : pimg::format("{}", int(given));
     const float value = float(given);
-    // The default stands in the table as the shortest text of a float.
+    // In the table the default is the shortest text that gives its float.
     return value == float(parameter.preset()) ? "" : pimg::format("{:.9g}", double(value));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The two functions a host looks for, and what happens to the actions it sends. Nothing is thrown across this border.
+// The two functions that a host looks for, and the actions that it sends. No exception leaves these functions.
 #include <algorithm>
 #include <array>
 #include <exception>
@@ -137,7 +137,7 @@ OfxStatus on_effect(const std::string& action, std::size_t index, OfxImageEffect
     return on_instance(action, *instance, host.properties(in), host.properties(out));
 }
 
-/// Says what went wrong, unless saying it fails, too.
+/// Reports what went wrong, if that is still possible.
 OfxStatus failed(std::size_t index, const void* handle, const char* what)
 {
     try {

@@ -15,10 +15,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// How often a build asks whether it is to stop, which is to take effect within 50 ms.
+/// How often the host is asked during a build whether to stop, which is to take effect within 50 ms.
 constexpr std::chrono::milliseconds kBetweenQuestions(5);
 
-/// Builds of less time pass without a bar.
+/// Builds that take less time show no progress bar.
 constexpr std::chrono::milliseconds kUnnoticed(500);
 
 /// Follows a build on the thread of the render action: asks the host whether to stop, and shows how far it is.
@@ -163,7 +163,7 @@ public:
     }
 
 private:
-    /// Whole, and kept, where a host asks for a part, for it will ask for the others.
+    /// The whole result. It is kept if the host asks for a part, since it will ask for the other parts.
     std::shared_ptr<const KeptResult> result_of(const pimg::BoundFilter& filter, const KeptHierarchy& hierarchy,
                                                 const Image& source, const Image& output, const std::string& options,
                                                 std::string& error)
@@ -257,7 +257,7 @@ OfxStatus render(Instance& instance, const Properties& in)
         return kOfxStatOK;
     }
     if (error.empty())
-        return kOfxStatOK;  // the host wanted to stop, and takes no notice of the image
+        return kOfxStatOK;  // the host wanted to stop, and ignores the image
     instance.complain(error);
     return kOfxStatFailed;
 }

@@ -25,13 +25,14 @@ using OIIO::ParamValue;
 using OIIO::TypeDesc;
 using OIIO::ustring;
 
-/// What says how a file is to be stored, or what OpenImageIO's caches believe of its pixels.
+/// Attributes that say how a file is to be stored, or from which OpenImageIO's caches draw conclusions about its
+/// pixels.
 constexpr const char* kHints[] = { "compression",        "CompressionQuality", "textureformat", "planarconfig",
                                    "oiio:subimages",     "oiio:dither",        "oiio:ioproxy",  "oiio:SHA-1",
                                    "oiio:ConstantColor", "oiio:AverageColor" };
 
-/// Names under which formats keep what concerns their own files: tiff:RowsPerStrip of a hostile file would choose the
-/// size of OpenImageIO's buffers.
+/// Beginnings of names of attributes that concern files of one format only. They could do harm: tiff:RowsPerStrip from
+/// a hostile file would choose the size of OpenImageIO's buffers.
 constexpr const char* kHintPrefixes[] = { "tiff:", "png:",    "jpeg:",    "jpeg2000:", "webp:", "heif:",
                                           "avif:", "jpegxl:", "openexr:", "bmp:",      "gif:",  "ico:",
                                           "sgi:",  "dds:",    "ptex:",    "maketx:" };
@@ -52,7 +53,7 @@ bool is_hint(const std::string& name, TypeDesc type)
     return false;
 }
 
-/// Whether a value that OpenImageIO's writers and readers act upon is one they can act upon.
+/// Whether the value of an attribute that OpenImageIO's readers and writers rely on is a valid one.
 bool is_sound(const std::string& name, TypeDesc type, const void* value)
 {
     const auto within = [&](int low, int high) {
@@ -70,11 +71,11 @@ bool is_sound(const std::string& name, TypeDesc type, const void* value)
     return true;
 }
 
-/// The format's own attributes: what is not to be seen from the names of the channels.
+/// Attributes of our own, for what the names of the channels do not tell.
 constexpr const char* kAlphaChannel = "pimg:alpha_channel";
 constexpr const char* kDepthChannel = "pimg:z_channel";
 
-/// Whether OpenImageIO has a name for the type: asked for any other, some versions abort.
+/// Whether OpenImageIO has a name for the type. If not, some versions abort when asked for it.
 bool has_name(TypeDesc type)
 {
     for (const TypeDesc& named : { OIIO::TypeTimeCode, OIIO::TypeKeyCode, OIIO::TypeRational })
@@ -84,7 +85,7 @@ bool has_name(TypeDesc type)
         || (type.aggregate == TypeDesc::VEC3 && type.vecsemantics <= TypeDesc::NORMAL);
 }
 
-/// As OpenImageIO prints it where it can read that back, else "base:aggregate:semantics[length]".
+/// The type as OpenImageIO prints it, if it can read that back; else "base:aggregate:semantics[length]".
 std::string type_word(TypeDesc type)
 {
     const std::string word = has_name(type) ? type.c_str() : "";
@@ -108,7 +109,7 @@ TypeDesc parse_type(const std::string& word)
              length };
 }
 
-/// Numbers lie in files little-endian.
+/// Reverses the bytes of numbers on big-endian machines: files are little-endian.
 void swap_on_big_endian(std::vector<std::uint8_t>& value, std::size_t size)
 {
     if (OIIO::bigendian())
@@ -138,12 +139,12 @@ Attribute to_attribute(const ParamValue& param)
     return attribute;
 }
 
-/// The attributes of a header, by name. ImageSpec::attribute() looks through all of them each time, which a file of many
-/// would make a matter of minutes.
+/// The attributes of a header, by name. ImageSpec::attribute() looks through all of them each time, which would take
+/// minutes for a file that has very many.
 class AttributeList {
 public:
     explicit AttributeList(ImageSpec& spec) : m_list(spec.extra_attribs) { }
-    /// Of several of one name, whatever its case, the last counts.
+    /// Of several attributes with the same name, ignoring case, the last one counts.
     void set(const std::string& name, TypeDesc type, const void* value)
     {
         const auto [found, is_new] = m_places.emplace(OIIO::Strutil::lower(name), m_list.size());
@@ -177,7 +178,7 @@ void add_strings(AttributeList& list, const Attribute& attribute, TypeDesc type)
 void add_attribute(AttributeList& list, const Attribute& attribute)
 {
     const TypeDesc type = parse_type(attribute.type);
-    // OpenImageIO ends a name at a zero character: what follows it would get a hint past the list of hints.
+    // OpenImageIO ends a name at a zero character, so a name that holds one could be a hint without looking like one.
     if (attribute.name.empty() || attribute.name.find('\0') != std::string::npos || is_hint(attribute.name, type)
         || type.arraylen < 0)
         return;
@@ -289,7 +290,7 @@ ImageSpec to_spec(const PictureDesc& desc)
     for (const ChannelDesc& channel : desc.channels) {
         spec.channelnames.push_back(channel.name);
         spec.channelformats.push_back(type_desc(channel.type));
-        // As everywhere in OpenImageIO, `format` is then the most precise of them.
+        // As everywhere in OpenImageIO, `format` is the most precise of the channels' formats.
         if (spec.channelformats.back().basetype > spec.format.basetype)
             spec.format = spec.channelformats.back();
     }
@@ -315,7 +316,7 @@ void add_hints(ImageSpec& spec, const WriteOptions& options)
     for (const Option<WriteOptions>& option : option_table<WriteOptions>()) {
         const bool is_default = option.get(options) == option.get(defaults);
         if (is_default && describe_option(option.rule, option.get(defaults)).default_value.empty())
-            continue;  // not set: there is no hint for that
+            continue;  // not set, which needs no hint
         const std::string name = std::string("pimg:") + option.rule.key;
         const auto add = [&](const auto& value) {
             spec.attribute(name, value);

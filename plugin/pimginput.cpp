@@ -69,7 +69,8 @@ bool PimgInput::open(const std::string& name, ImageSpec& spec, const ImageSpec& 
         ioproxy_retrieve_from_config(config);
         if (!ioproxy_use_or_open(file_of(name)))
             return false;
-        // First whether the file is one of ours: OpenImageIO shows every reader files of unknown formats.
+        // The file may not be one of ours: OpenImageIO tries every reader on files of unknown formats. So that is
+        // checked first.
         const Status status = open_decoder(ioproxy(), m_decoder);
         if (!status)
             return fail(pimg::format("\"{}\": {}", name, status.error()));
@@ -88,7 +89,7 @@ bool PimgInput::open(const std::string& name, ImageSpec& spec, const ImageSpec& 
 
 bool PimgInput::close()
 {
-    m_decoder = Decoder();  // before what it reads from
+    m_decoder = Decoder();  // must go before the proxy that it reads from
     ioproxy_clear();
     m_levels.clear();
     m_made.clear();
@@ -116,8 +117,8 @@ static ImageSpec mip_spec(const ImageSpec& top, int level)
     return spec;
 }
 
-/// A name with a query that cannot be meant. If it did not open, oiiotool would only say that there is no such file; so the
-/// picture in the file is announced, and whoever asks for its pixels is told what is wrong.
+/// Handles a name whose query is wrong. If the file did not open, oiiotool would only say that there is no such file.
+/// So it opens, with the picture in the file, and reading pixels fails with the reason.
 void PimgInput::refuse(const std::string& error)
 {
     m_failure = pimg::format("\"{}\": {}", m_name, one_line(error));

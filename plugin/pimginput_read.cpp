@@ -21,7 +21,7 @@ using OIIO::ImageSpec;
 using OIIO::ROI;
 using OIIO::stride_t;
 
-/// Whether the file has its end. A file that was cut is a coarser picture, which only those get who ask for it.
+/// Whether the file is complete. One that was cut short shows a coarser picture, but only if that is asked for.
 bool PimgInput::is_whole()
 {
     if (m_request.partial)
@@ -60,7 +60,7 @@ bool PimgInput::decode(const Request& request)
     return failure.ok() || fail(pimg::format("\"{}\": {}", m_name, failure.error()));
 }
 
-/// The channels over the request's memory; those outside its range are not wanted.
+/// The channels of the picture, as places in the memory of the request; those outside its range are left out.
 std::vector<StridedChannel> PimgInput::channels_of(const ImageSpec& spec, const Request& request) const
 {
     std::vector<StridedChannel> channels(std::size_t(spec.nchannels));
@@ -102,7 +102,7 @@ Status PimgInput::decode_tile(const Request& request, std::uint32_t column, std:
     return {};
 }
 
-/// Tiles that are read piecemeal are kept: as many as lie beside each other, so that scanlines decode each once.
+/// A decoded tile. As many are kept as lie side by side, so that reading scanline by scanline decodes each tile once.
 std::shared_ptr<const Tile> PimgInput::tile(std::uint32_t column, std::uint32_t row, Status& status)
 {
     const auto side = int(m_decoder.tile());
@@ -181,9 +181,9 @@ std::shared_ptr<ImageBuf> PimgInput::stored_picture()
     return picture;
 }
 
-/// A level that must be made, from the one above it. All threads but the first wait for it. The first must not take up
-/// a foreign task of OpenImageIO's pool meanwhile: it could be one that reads this very file, and so waits for this lock
-/// on the thread that holds it.
+/// A level that is not in the file, made when it is first asked for. Meanwhile other threads that ask for it wait. The
+/// thread that makes it must not take up other tasks of OpenImageIO's pool: such a task may read this file, and would
+/// wait for a lock that its own thread holds.
 std::shared_ptr<const ImageBuf> PimgInput::made(int miplevel)
 {
     if (!is_whole())
@@ -242,7 +242,7 @@ std::shared_ptr<const ImageBuf> PimgInput::make(int miplevel)
     return m_failure.empty() ? level : nullptr;
 }
 
-/// A small picture from the mesh layer alone: of as many of its vertices as make a difference at that size.
+/// A small picture made from the mesh layer alone, with as many vertices as make a difference at that size.
 bool PimgInput::get_thumbnail(ImageBuf& thumbnail, int subimage)
 {
     return guarded([&] {

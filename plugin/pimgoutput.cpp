@@ -102,8 +102,8 @@ bool PimgOutput::check(const ImageSpec& spec)
     return false;
 }
 
-/// `pimg:key` attributes, and OpenImageIO's `compression`: "compact" or "full", perhaps followed by ":effort". What
-/// other formats call compression is none of ours.
+/// Reads the options from `pimg:key` attributes, and from OpenImageIO's `compression`: "compact" or "full", perhaps
+/// followed by ":effort". Other values of `compression` are meant for other formats, and ignored.
 bool PimgOutput::read_hints()
 {
     m_options = {};
@@ -169,7 +169,7 @@ bool PimgOutput::open(const std::string& name, const ImageSpec& spec, OpenMode m
         m_dither = m_spec.format == TypeDesc::UINT8 ? unsigned(m_spec.get_int_attribute("oiio:dither")) : 0;
 
         ioproxy_retrieve_from_config(m_spec);
-        SafeFile probe;  // that there can be one is known before the work, and nothing is left behind by it
+        SafeFile probe;  // finds out before the work whether the file can be written, and leaves nothing behind
         if (!ioproxy() && !probe.open(name)) {
             errorfmt("Could not open \"{}\": {}", name, probe.error());
             return false;
@@ -247,7 +247,7 @@ bool PimgOutput::accept(std::size_t part)
     return stored;
 }
 
-/// The hierarchy the filters would build, or the one asked for, rather than the codec's own.
+/// Builds the hierarchy by the options of the filters, instead of the codec's simpler guide.
 bool PimgOutput::build_hierarchy(ProgressiveImage& progressive)
 {
     ImageSpec spec = m_spec;

@@ -9,16 +9,16 @@ namespace pimg {
 
 namespace {
 
-// Chosen so that a pan with the noise and the drift of tests/tools/sequence_test.py has no events, and all of its are
-// found when they are put in.
+// Chosen so that in tests/tools/sequence_test.py a pan with noise and drift has no events, and the events that the test
+// puts in are all found.
 constexpr double kEvent = 0.5;         ///< stops that a cut, a flash or a fade changes at least
-constexpr double kOverSpread = 4.0;    ///< and times the median deviation around it
+constexpr double kOverSpread = 4.0;    ///< and how many times the median deviation around it
 constexpr double kFadeStep = 0.01;     ///< stops from frame to frame in a fade to or from black, at least
 constexpr double kBlackStops = 10.0;   ///< frames so far below the median frame are black with noise
-constexpr double kOpenFade = 2.0;      ///< stops of a fade that black does not end within the frames known
+constexpr double kOpenFade = 2.0;      ///< stops that a fade changes if no black frame is known at its end
 constexpr double kOpenFadeStep = 0.1;  ///< and from frame to frame
 constexpr std::size_t kNear = 5;       ///< frames on a side that a cut is judged by
-constexpr std::size_t kFewest = 3;     ///< on a side: fewer may be a flash
+constexpr std::size_t kFewest = 3;     ///< on a side: fewer frames may be a flash
 
 double median(std::vector<double> values)
 {
@@ -101,7 +101,7 @@ public:
 private:
     double stops(std::size_t frame, std::size_t figure) const { return m_frames[frame].stops[figure]; }
 
-    /// Frames on one side of black, or of an end of what is known, that brighten from there on.
+    /// Marks the frames of a fade: they become brighter from a black frame, or from the first or last known frame, on.
     void mark_fade(int black, int step)
     {
         const int count = int(m_frames.size());
@@ -118,7 +118,7 @@ private:
         const bool open = black < 0 || black == count;
         if (change < (open ? kOpenFade : kEvent) || (open && change < kOpenFadeStep * std::abs(last - black - step)))
             return;
-        for (int i = black + step; i != last; i += step)  // the brightest is of the scene
+        for (int i = black + step; i != last; i += step)  // the brightest frame belongs to the scene
             m_roles[std::size_t(i)].steady = false;
     }
 
@@ -146,7 +146,8 @@ private:
         return false;
     }
 
-    /// The scene's first frame if the last steady one before it is `before`: fades in belong to it, fades out do not.
+    /// The first frame of a scene whose cut comes after the steady frame `before`: a fade in belongs to the scene, a
+    /// fade out does not.
     int first_frame_after(std::size_t before, std::size_t begin) const
     {
         for (std::size_t i = before + 1; i < begin; ++i)

@@ -49,8 +49,8 @@ struct Member {
 };
 constexpr Member kMembers[] = { { "dmax", &Anchors::dmax }, { "key", &Anchors::key }, { "white", &Anchors::white } };
 
-/// The members of a frame's views that were measured, as the mean of their logarithms; empty if none was. Light is
-/// first; files of before had none.
+/// The figures of a frame: of each member the mean of the logarithms over those of the frame's views in which it was
+/// measured. Empty if there are none. Light is first; older files do not have it.
 template<class Iterator>
 std::vector<double> mean_stops(Iterator first, Iterator last)
 {
@@ -113,7 +113,7 @@ void Anchors::apply(HdrCompressOptions& options) const
 
 bool median_light(const OIIO::ImageBuf& picture, const std::string& space, float& light, std::string& error)
 {
-    constexpr std::size_t kLitOf = 1000;  ///< one lit pixel in so many is a hot one, not a picture
+    constexpr std::size_t kLitOf = 1000;  ///< fewer than one lit pixel in so many are hot pixels
     Colour colour;
     if (!Colour::resolve(picture.nativespec(), space, "", colour, error))
         return false;

@@ -62,7 +62,7 @@ bool help(const std::string& argument, const std::string& after, std::string& te
     return true;
 }
 
-/// Answers --help and --version wherever they stand. False if neither does.
+/// Answers --help and --version wherever they stand on the command line. False if neither is there.
 bool answer(const std::vector<std::string>& arguments, int& status)
 {
     for (std::size_t i = 0; i < arguments.size(); ++i) {
@@ -112,7 +112,7 @@ bool find_shot(const Program& settings, const std::vector<Program>& programs, St
 bool run(const Program& settings, const std::vector<Program>& programs, std::string& error)
 {
     if (!std::getenv("OPENIMAGEIO_DEBUG"))
-        OIIO::attribute("debug", 0);  // Debian's library talks on standard error otherwise
+        OIIO::attribute("debug", 0);  // otherwise Debian's library writes to standard error
     OIIO::attribute("threads", programs[0].threads);
     OIIO::attribute("exr_threads", programs[0].threads);
     Stats stats;
@@ -139,7 +139,8 @@ bool run(const Program& settings, const std::vector<Program>& programs, std::str
 
 namespace {
 
-/// One line and the end, for what no one catches: threads and tables of libraries are made outside of main(), too.
+/// Ends the program with one line when memory runs out where nothing catches it, such as in threads of libraries and in
+/// their tables, which are made before main().
 [[noreturn]] void out_of_memory()
 {
     static constexpr char kLine[] = "pimgtool: error: not enough memory\n";
@@ -148,8 +149,8 @@ namespace {
 }
 
 #ifdef __ELF__
-/// Libraries that start with less address space than this crash in ways of their own (measured: 440 MB with
-/// OpenImageIO 2.4 and OpenColorIO 2.1).
+/// With less address space than this, libraries crash while they start (measured: below 440 MB with OpenImageIO 2.4 and
+/// OpenColorIO 2.1).
 constexpr rlim_t kLeastAddressSpace = rlim_t(480) << 20;
 
 void before_libraries(int, char**, char**)
@@ -176,7 +177,7 @@ int run_arguments(const std::vector<std::string>& arguments)
     return done ? 0 : report(error);
 }
 
-/// What was printed has to arrive, also on a disk that is full.
+/// Makes sure that everything printed has been written: a full disk is an error.
 int flushed(int status)
 {
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0)
@@ -189,7 +190,8 @@ int flushed(int status)
 int main(int argc, char** argv)
 {
 #ifdef M_MMAP_MAX
-    // Large arrays come and go; fresh pages for each, cleared by the kernel, took a twentieth of the time.
+    // Memory of large arrays is used again instead of given back: fresh pages, which the kernel must clear, took a
+    // twentieth of the time.
     mallopt(M_MMAP_MAX, 0);
 #endif
     std::signal(SIGXFSZ, SIG_IGN);  // a file over the limit is an error like any other

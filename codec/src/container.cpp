@@ -162,8 +162,8 @@ Status read_channels(ByteReader in, const DecodeLimits& limits, const FileHead& 
 
 namespace {
 
-/// What so many bytes of packed attributes may unpack to: text packs to a twentieth at best, and a few megabytes of
-/// nothing are harmless. Writers store what packs better as it is.
+/// The most bytes that packed attributes may unpack to. Text is packed to a twentieth of its size at best, and a few
+/// megabytes are harmless whatever they hold. Attributes that pack better than this are stored unpacked by writers.
 std::uint64_t most_unpacked(std::uint64_t packed)
 {
     return (std::uint64_t(4) << 20) + 64 * packed;

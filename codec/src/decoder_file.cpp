@@ -85,7 +85,7 @@ Status Decoder::File::open()
         Chunk chunk;
         Status status;
         if (!chunk_at(offset, chunk, status)) {
-            // A prefix that ends behind the channels is a picture to describe, if not to show.
+            // A file that ends after the channels has no picture to show, but one that can be described.
             if (!status.ok() || !channels)
                 return status.ok() ? Status::failure("pimg: the file ends within its header") : status;
             break;
@@ -112,7 +112,7 @@ Status Decoder::File::open()
         } else if (is_known(chunk.head) || chunk.head.flags & kCritical)
             break;
         else if (chunk.head.length <= limits.attribute_bytes && !(status = verify(chunk)).ok())
-            return status;  // it may be the attributes by another name
+            return status;  // it may be the chunk of attributes with a damaged name
         offset = chunk.end();
     }
     if (!channels)
@@ -141,8 +141,8 @@ Status Decoder::File::make_index() const
             return status;
         if (offset >= body)
             status = add_to_index(chunk, next_tile);
-        // Tiles and the collapse sequence are checked when they are read, the header has been; what nobody asks for
-        // may be damaged too, and one whose name is damaged is one that nobody asks for.
+        // The header has been checked, and tiles and the collapse sequence are checked when they are read. All other
+        // chunks are checked here, those without a use, too: damage to a name turns a needed chunk into one of these.
         const bool read_elsewhere =
             offset < body ? is_known(chunk.head) : chunk.head.is("RAST") || chunk.head.is("COLL");
         if (status && !read_elsewhere)
@@ -223,7 +223,7 @@ Status Decoder::File::read_layer(double share, MeshLayer& layer_out) const
     return status;
 }
 
-/// Whether a mesh can be shown on width x height pixels by work in proportion to them and to its triangles.
+/// Whether the work of showing a mesh on width x height pixels is in proportion to these and to its triangles.
 Status Decoder::File::check_effort(const Mesh& mesh, const std::vector<Triangle>& triangles, std::uint32_t width,
                                    std::uint32_t height) const
 {

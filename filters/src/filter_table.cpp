@@ -16,7 +16,7 @@ namespace {
 template<class Options>
 using Function = bool (*)(OIIO::ImageBuf&, const ProgressiveImage&, const Options&, OIIO::ROI, int);
 
-/// What results of these options are, if the row says `usual` of the defaults.
+/// The kind of result that these options give, where `usual` is that of the defaults.
 template<class Options>
 FilterOutput output_of(const Options&, FilterOutput usual)
 {
@@ -37,7 +37,7 @@ FilterOutput output_of(const DualPiecesOptions& options, FilterOutput)
     return output_of(options.output);
 }
 
-/// The option given that names a file to write.
+/// The name of the file that these options ask to write.
 template<class Options>
 std::string written_by(const Options& options)
 {

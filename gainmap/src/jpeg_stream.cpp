@@ -23,7 +23,8 @@ bool begins_stream(std::string_view bytes)
     return bytes.size() >= 4 && byte_at(bytes, 0) == 0xFF && byte_at(bytes, 1) == kStart && byte_at(bytes, 2) == 0xFF;
 }
 
-/// Moves `at`, which is at a marker, behind the segment. False at what has no length, or is cut off.
+/// Reads the segment whose marker is at `at`, and moves `at` behind it. False if the segment has no length or is cut
+/// off.
 bool read_segment(std::string_view stream, std::size_t& at, JpegSegment& segment)
 {
     while (at + 1 < stream.size() && byte_at(stream, at) == 0xFF && byte_at(stream, at + 1) == 0xFF)

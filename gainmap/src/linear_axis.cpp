@@ -9,7 +9,7 @@ namespace pimg {
 
 namespace {
 
-/// Holds values of the small picture down that no pixel of the large one sees.
+/// Keeps the equations solvable where no pixel of the large picture depends on a value of the small one.
 constexpr double kTiny = 1e-9;
 
 }  // namespace

@@ -12,7 +12,7 @@ constexpr std::uint16_t kLong = 4, kUndefined = 7;
 constexpr std::uint16_t kVersionTag = 0xB000, kCountTag = 0xB001, kEntriesTag = 0xB002;
 constexpr std::uint32_t kPrimaryPicture = 0x030000;  ///< "Baseline MP Primary Image"
 constexpr std::size_t kEntrySize = 16, kHeaderSize = 8, kTagSize = 12;
-constexpr std::uint32_t kMostPictures = 64;  ///< of an index that is looked at: more are no gain-map file
+constexpr std::uint32_t kMostPictures = 64;  ///< entries of an index at most: a file with more is no gain-map file
 
 void append_tag(std::string& bytes, std::uint16_t tag, std::uint16_t type, std::uint32_t count)
 {

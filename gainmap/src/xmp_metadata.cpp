@@ -66,7 +66,7 @@ void add_item(pugi::xml_node items, const char* meaning, std::size_t size)
         item.append_attribute("Item:Length") = static_cast<unsigned long long>(size);
 }
 
-/// The prefix that stands for a name space, with its colon; as everybody writes it if the packet does not say.
+/// The prefix of a name space in the packet, with its colon; `usual` if the packet does not declare one.
 std::string prefix_of(const pugi::xml_document& document, const char* space, const char* usual)
 {
     const pugi::xml_node node = document.find_node([&](const pugi::xml_node& candidate) {

@@ -115,7 +115,7 @@ int Host::threads() const
 {
     if (m_threads == nullptr)
         return 0;
-    // A thread that the host has spawned for us shares the processors with its siblings already.
+    // On a thread that the host has spawned for us, one thread is used: its siblings use the other processors.
     unsigned int count = 1;
     if (m_threads->multiThreadIsSpawnedThread() != 0 || m_threads->multiThreadNumCPUs(&count) != kOfxStatOK)
         return 1;

@@ -25,7 +25,7 @@ int channels_of(const std::string& components)
                                                 : 0;
 }
 
-/// loop(n, body) of pool_loop(), which has nothing to call for one thread.
+/// Runs body(i) for every i below n by pool_loop(), which is empty for one thread.
 void for_all(int threads, std::size_t n, const std::function<void(std::size_t)>& body)
 {
     const pimg::ParallelFor loop = pimg::pool_loop(threads);
@@ -201,7 +201,7 @@ private:
         if (std::find(m_from.begin(), m_from.end(), kSourceAlpha) != m_from.end())
             alpha = floats(m_source.address(m_inside.x1, y) + 3 * m_source.depth().size(), m_source.depth(), 1,
                            OIIO::stride_t(m_source.pixel_bytes()));
-        // Numbers of an integer depth mean themselves; convert_image() would multiply by the largest.
+        // Labels stay the numbers they are; convert_image() would scale them to the range of the depth.
         const TypeDesc depth = m_output.depth();
         const float unit =
             m_placement.is_labels && !depth.is_floating_point() ? 1.0f / float(pimg::largest_label(depth)) : 1.0f;

@@ -17,8 +17,7 @@ using Text = std::string;
 std::atomic<int> images_out { 0 };
 
 constexpr unsigned char kUntouched = 0xa5;
-constexpr std::size_t kPadding =
-    24;  ///< bytes after the pixels of each row; no multiple of any pixel's size but small ones
+constexpr std::size_t kPadding = 24;  ///< bytes after each row of pixels; not a multiple of the size of large pixels
 
 TypeDesc type_of(const std::string& depth)
 {

@@ -204,7 +204,7 @@ OfxStatus Instance::press(const std::string& button, double time)
     return status;
 }
 
-/// The output is asked for where the source is, and the source whole.
+/// Checks that the region of the output is that of the source, and that the effect asks for the whole source.
 OfxStatus Instance::regions(const RenderOptions& options, const OfxRectI& window)
 {
     const OfxRectI whole = m_footage->pixels(options.time);

@@ -55,7 +55,7 @@ void define_properties(Parameter& p)
         set.define(most, 1, { p.is_real() ? Value(DBL_MAX) : Value(INT_MAX) });
 }
 
-/// The text of a value as C sees it; it lives until the thread has asked for 64 more.
+/// A copy of the text that C can use. It lasts until the same thread has asked for 64 more.
 char* lasting(const std::string& text)
 {
     thread_local std::array<std::string, 64> ring;

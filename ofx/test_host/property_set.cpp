@@ -74,8 +74,8 @@ std::vector<std::string> PropertySet::names() const
 
 /// The functions of the suite.
 struct PropertyAccess {
-    /// The property, if it is there and holds values like T. Reading what a host of another version does not have is no
-    /// violation, but a type that is wrong is.
+    /// The property, if there is one with values of type T. To read a property that only other versions of a host have
+    /// is no violation, but to use a wrong type is.
     template<class T>
     static PropertySet::Property* find(OfxPropertySetHandle handle, const char* name, OfxStatus& status)
     {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Property sets of the test host. A set knows which properties it has and of which type they are; whoever asks for
-// anything else is told so, and that is counted as a violation.
+// Property sets of the test host. A set knows its properties and their types. A plug-in that asks for anything else
+// gets an error, which is counted as a violation of the rules.
 #pragma once
 
 #include <map>

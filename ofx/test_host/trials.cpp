@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hard times for a plug-in: many threads, and hosts that do everything wrong.
+// Trials for a plug-in: many threads, and a host that does everything wrong.
 #include <cstdio>
 #include <map>
 #include <random>
@@ -27,7 +27,7 @@ void set_random_keys(Effect& effect, std::mt19937& random)
 {
     for (Parameter& parameter : effect.parameters.all) {
         const bool of_filter = parameter.properties.text(kOfxParamPropParent) == "group_filter";
-        // Of options that exclude each other none is given.
+        // Options that are unset by default stay so: some of them exclude each other.
         if (!of_filter || !parameter.is_real() || parameter.properties.real(kOfxParamPropDefault) < 0.0)
             continue;
         const double low = parameter.properties.real(kOfxParamPropDisplayMin),

@@ -10,11 +10,11 @@ namespace pimg {
 
 namespace {
 
-// The masks are drawn, not taken from anywhere: all numbers here and in the four functions below, which say where hairs
-// start, how ragged ends are and how high the paint stands, were chosen by eye. Lengths along a stroke are columns of
-// the finest mask, those across shares of half its width; heights and alphas are 0 to 1.
+// The masks are our own drawings: all numbers here and in the four functions below, such as where hairs start, how
+// ragged ends are and how high the paint stands, were chosen by eye. Lengths along a stroke are in columns of the
+// finest mask; lengths across it are shares of half its width. Heights and alphas are 0 to 1.
 
-/// Masks of one brush; more: strokes repeat less often, and a brush takes longer to make.
+/// Number of masks of one brush. With more, strokes repeat less often, and a brush takes longer to make.
 constexpr int kVariants = 8;
 constexpr float kCap = float(Brush::kRows) / 2;  ///< columns from the tip to where a round end is full
 

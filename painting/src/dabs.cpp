@@ -16,9 +16,8 @@ constexpr float kPixel = 1.0f / float(kSubpixels);
 /// More gives wider strokes, fewer gaps to be filled from below, and more paint over the neighbours.
 constexpr float kOverlap = 1.35f;
 
-/// Share of the least width's square below which the area of a piece is certainly too small: a dab as wide as the
-/// square root of its area, the widest there is, would still be narrower than the least width. By that argument 1
-/// would do; the rest is a margin.
+/// A piece whose area is below this share of the least width's square is certainly too small. A dab is at most as wide
+/// as the square root of its area, so 1 would do; the rest is a margin.
 constexpr float kSmallestArea = 0.7f;
 
 struct Polygon {
@@ -52,7 +51,7 @@ Polygon polygon_of(const Mesh& mesh, Index v)
     return polygon;
 }
 
-/// Area and centre of gravity. Pieces of concave stars may fold over at one corner; the sums stay sensible.
+/// Area and centre of gravity. A piece of a concave star may fold over at one corner; the sums are still good enough.
 float area_and_centre(const Polygon& polygon, Vec2& centre)
 {
     const Vec2 o = polygon.points[0];
@@ -79,7 +78,7 @@ public:
     {
     }
 
-    /// A base vertex.
+    /// Measures the piece of a base vertex.
     void base(const Mesh& mesh, Index v)
     {
         m_area.push_back(0.0f);
@@ -87,7 +86,8 @@ public:
         measure(mesh, v, 0);
     }
 
-    /// The two vertices of a split. Pieces only shrink, so those of a piece too small for any brush are skipped.
+    /// Measures the pieces of the two vertices of a split. Pieces only shrink, so nothing is done if the piece that is
+    /// split was too small for any brush.
     void split(const Mesh& mesh, Index s, Index u, Level level)
     {
         m_area.push_back(m_area[s]);
@@ -110,8 +110,8 @@ private:
     const DabOptions& m_options;
     std::vector<Dab>& m_dabs;
     float m_smallest;             ///< area whose parts are certainly below the range
-    std::vector<float> m_area;    ///< of each vertex's piece when it was last measured
-    std::vector<char> m_waiting;  ///< piece still larger than the range
+    std::vector<float> m_area;    ///< area of each vertex's piece when it was last measured
+    std::vector<char> m_waiting;  ///< whether the piece was still larger than the range
 };
 
 void Collector::measure(const Mesh& mesh, Index v, Level level)

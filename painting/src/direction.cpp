@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Structure tensors on a pyramid. Each level knows directions of its own scale; where it sees nothing but noise,
-// or what runs in all directions, the next coarser one decides. So an edge keeps its exact direction and a flat sky is
-// swept by the directions of what borders it, without a gap in between.
+// Structure tensors on a pyramid. Each level gives directions at its own scale. Where it shows only noise, or structure
+// in all directions, the next coarser level decides. So an edge keeps its exact direction, and a flat sky takes the
+// directions of what borders it, without a gap in between.
 #include <pimg/detail/parallel.h>
 #include <pimg/direction.h>
 
@@ -29,7 +29,7 @@ Tensor operator*(float k, Tensor a)
     return { k * a.xx, k * a.yy, k * a.xy };
 }
 
-/// A raster with its size; reads outside give the nearest sample.
+/// A raster that knows its size. Outside it has the sample of the nearest place inside.
 template<class T>
 struct Grid {
     int width = 0, height = 0;
@@ -115,7 +115,8 @@ Grid<Tensor> tensors(const ChannelsView& guides, const ParallelFor& parallel)
     return blur(sum, parallel);
 }
 
-/// Doubled angle of the edge (90 degrees from the gradient, hence the signs), as long as the tensor is one-sided.
+/// A vector at twice the angle of the edge, which is at 90 degrees to the gradient: hence the signs. It is longer, the
+/// more the tensor prefers one direction.
 Vec2 edge_direction(Tensor t)
 {
     const float trace = t.xx + t.yy;
@@ -150,7 +151,7 @@ DirectionField::DirectionField(const ChannelsView& guides, const ParallelFor& pa
     for (std::size_t k = levels.size(); k-- > 0;) {
         const Grid<Tensor>& level = levels[k];
         Grid<Vec2> fine(level.width, level.height);
-        // The farther away an edge, the weaker it may be and still be all there is.
+        // At coarser levels, where edges are farther away, weaker ones count: there may be no others.
         const float floor = noise * noise / float(1u << std::min<std::size_t>(2 * k, 30));
         for_rows(parallel, 0, level.height, [&](int y) {
             for (int x = 0; x < level.width; ++x) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Distances to the sides of the pieces' polygons. The polygons of all vertices share their sides and cover the plane,
-// but for folds where a star is very concave; there the tile deeper inside wins, which keeps every pixel on one tile.
+// Works with distances to the sides of the pieces' polygons. These polygons share their sides and cover the plane.
+// Where a star is very concave they may overlap; there a pixel belongs to the tile that it lies deeper in, so that it
+// is on one.
 #include <pimg/detail/parallel.h>
 #include <pimg/mosaic.h>
 
@@ -117,7 +118,7 @@ void lay_mosaic(const Tiling& tiling, Index tiles, const TileOptions& options, c
             counts[t] += 1.0;
             joints[t] = std::max(joints[t], tiling.inside[i]);
         }
-        // Half a joint's width; slivers keep two thirds of themselves.
+        // Half the width of a joint, but less for slivers, of which two thirds must stay tile.
         for (float& joint : joints)
             joint = std::min(0.5f * options.grout, joint / 3.0f);
         for (std::size_t i = 0; i < tiling.tile.size(); ++i) {

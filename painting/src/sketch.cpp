@@ -87,7 +87,7 @@ Sketch::Sketch(const ShadePicture& picture, int cell)
 template<class Visit>
 void Sketch::visit(const Vec2* points, int count, float width, Visit&& visit) const
 {
-    // Across the stroke in steps of a cell, leaving out the rim, where the neighbours' strokes overlap anyway.
+    // Across the stroke in steps of a cell, without its rim, which neighbouring strokes overlap anyway.
     const float per_cell = 1.0f / float(m_cell);
     const int across = std::max(1, int(0.9f * width * per_cell + 0.5f));
     const float step = 0.9f * width / float(across);

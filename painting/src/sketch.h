@@ -53,11 +53,11 @@ class Sketch {
 public:
     Sketch(const ShadePicture& picture, int cell);
 
-    /// Mean of |picture - painted| - |picture - shade| over the cells under a stroke; cells never
-    /// painted count as `bare` away. Negative if the stroke would do harm.
+    /// What a stroke would improve: the mean of |picture - painted| - |picture - shade| over the cells under it, where
+    /// |picture - painted| is `bare` for cells without paint. Negative if the stroke would do harm.
     float gain(const Vec2* points, int count, float width, const Shade& shade, float bare) const;
     void put(const Vec2* points, int count, float width, const Shade& shade);
-    /// Marks what lies under a stroke as covered from below; what is painted there stays on top.
+    /// Paints the cells under a stroke that have no paint yet, as if the stroke were put below all others.
     void put_below(const Vec2* points, int count, float width, const Shade& shade);
 
     bool is_covered(Vec2 p) const;

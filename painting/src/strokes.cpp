@@ -23,11 +23,12 @@ constexpr int kMostPoints = 24;
 /// the second gives longer, calmer strokes.
 constexpr float kShortest = 2.0f, kLongest = 8.0f;
 
-/// What a cell without paint counts as, in 8-bit units off: more than a shade usually is off, so that bare canvas is
-/// covered first, but less than black is for white, so that a quite wrong stroke is not put there.
+/// How wrong a cell without paint counts as, in 8-bit steps: more than a shade usually differs from the picture, so
+/// that bare canvas is covered first, but less than black differs from white, so that a stroke of a quite wrong colour
+/// is not put there.
 constexpr float kBare = 64.0f;
 
-/// Pixels after which an edge has reached its other side in the smoothed picture: the reach of its kernel of five.
+/// Width of an edge in the smoothed picture, in pixels to either side: the reach of its kernel of five pixels.
 constexpr float kEdgeWidth = 2.0f;
 
 /// The eighth of a full turn, 45 degrees, in radians: the largest turn by jitter_angle.
@@ -37,11 +38,12 @@ constexpr float kEighth = float(elementary::kPi / 4);
 /// on the rocket (docs/internals.md).
 constexpr float kPitch = 0.5f;
 
-/// Largest chance shift of a place in distances of places; more: less of a grid, but more gaps.
+/// Largest random shift of a place, as a share of the distance of places. With more there is less of a grid, but more
+/// gaps.
 constexpr float kScatter = 0.3f;
 
-/// A stroke keeps its fixed place if the picture is alike there, to this share of `crossing`; else it takes the place
-/// of its piece. Not measured itself, but always the fixed place hardly differs (docs/internals.md).
+/// A stroke goes to the fixed place if the picture there differs by less than this share of `crossing`; else to the
+/// place of its piece. Chosen by eye. Taking the fixed place always makes hardly any difference (docs/internals.md).
 constexpr float kAlikePlace = 0.4f;
 
 /// Step along a stroke in widths, and the cosine of the sharpest turn from one step to the next, 45 degrees.
@@ -90,7 +92,7 @@ private:
     const StrokeOptions& m_options;
 };
 
-/// Where an edge cuts into the width, moves the stroke to its own side and makes it as narrow as it has to be.
+/// Where an edge cuts into the width of a stroke, moves the stroke to its own side and makes it as narrow as necessary.
 void Planner::fit_between_edges(Draft& draft, Vec2 along, float min) const
 {
     Vec2& centre = draft.points[kMostPoints];
@@ -120,7 +122,7 @@ void Planner::fit_between_edges(Draft& draft, Vec2 along, float min) const
     if (room >= draft.width)
         return;
     draft.width = std::max(room, min);
-    // The rim on the side of the edge stays where it is found; half the missing room goes to either side.
+    // If there is less room on one side, half of the difference shifts the stroke to the other.
     const float shift = 0.5f * (free[1] - free[0]);
     centre = { centre.x + shift * across.x, centre.y + shift * across.y };
 }
@@ -142,7 +144,7 @@ void Planner::walk(Draft& draft, Vec2 along, float reach, int sign) const
             cosine = -cosine;
         }
         if (i == 0)
-            turn = d;  // a jittered stroke starts as it was turned
+            turn = d;  // a stroke that chance has turned starts in that direction
         else if (cosine < kStraight)
             break;
         const Vec2 q { p.x + step * turn.x, p.y + step * turn.y };
@@ -183,8 +185,8 @@ Draft Planner::draft(Vec2 place, float width, float length, std::uint32_t variat
     return draft;
 }
 
-/// Brushes come in sizes, half an octave apart; and of one size there is one stroke to a place. So the next frame of a
-/// film, whose noise makes another mesh, finds most strokes where they were.
+/// A place that may have a stroke of one size. Sizes of brushes are half an octave apart, and there is one stroke of a
+/// size to a place. So the next frame of a film, whose noise makes another mesh, finds most strokes where they were.
 struct Site {
     std::uint64_t key;  ///< size, large first, then chance: the order of painting
     Index dab;
@@ -204,7 +206,7 @@ Site site_of(const Dab& dab, Index index, const ShadePicture& picture, const Str
         std::uint32_t(x) + scramble(std::uint32_t(y) + scramble(std::uint32_t(size) + scramble(options.seed))));
     const Vec2 place { pitch * (float(x) + kScatter * signed_unit(scramble(chance + 4))),
                        pitch * (float(y) + kScatter * signed_unit(scramble(chance + 5))) };
-    // Next to an edge the mesh knows the place better.
+    // Next to an edge the place of the piece is better, because it comes from the mesh.
     if (picture.distance(picture.at(place), picture.at(dab.centre)) < kAlikePlace * options.crossing)
         site.centre = place;
     const int bin = std::clamp(int(4.0 * (20.0 - elementary::log2(double(site.width)))), 0, 255);
@@ -255,7 +257,7 @@ Status plan_strokes(const Hierarchy& hierarchy, const ChannelsView& guides, cons
         append(draft, dabs[site.dab].vertex, dabs[site.dab].level, laid);
     }
 
-    // What is still bare is covered from below, so that these strokes show in the gaps only.
+    // Canvas that is still bare is covered by strokes below all others, which show in the gaps only.
     strokes = {};
     strokes.width = guides.width;
     strokes.height = guides.height;
@@ -280,7 +282,8 @@ std::vector<std::vector<float>> stroke_colours(const Strokes& strokes, const Cha
                                                const ChannelsView& guides, const ParallelFor& parallel)
 {
     constexpr std::size_t kBlock = 1024;
-    // Steps of an 8-bit picture; nearer colours count as the same paint. Chosen by eye; more: duller colours.
+    // In steps of an 8-bit picture: colours that differ less count as the same paint. By eye; more makes colours
+    // duller.
     constexpr float kAlike = 16.0f;
     const std::size_t n = strokes.strokes.size();
     std::vector<std::vector<float>> colours(picture.channels.size(), std::vector<float>(n));

@@ -15,7 +15,7 @@ namespace pimg {
 
 namespace {
 
-/// The keys of T, ConversionOptions or a struct derived from it, that all conversions have.
+/// The keys that all conversions have. T is ConversionOptions or a struct derived from it.
 template<class T>
 std::vector<Option<T>> conversion_table()
 {
@@ -62,8 +62,8 @@ using OIIO::ImageBuf;
 using OIIO::ImageSpec;
 using pimg::format;
 
-/// Converts the colours of the top picture, in floating point, so that nothing is rounded before the file is written.
-/// Only colour and alpha are shown to OpenImageIO: 2.4 changes the channels after them, too.
+/// Converts the colours of the top picture in floating point, so that nothing is rounded before the file is written.
+/// OpenImageIO gets a picture of only colour and alpha, since version 2.4 also changes the channels that follow them.
 bool convert_colours(Session& session, const OIIO::ColorProcessorHandle& processor, const std::string& space,
                      bool unpremult)
 {
@@ -104,7 +104,7 @@ bool convert_colours(Session& session, const OIIO::ColorProcessorHandle& process
     });
 }
 
-/// Finds the space of the top picture's colours, which become scene-linear if no conversion would know them.
+/// Finds the space of the top picture's colours. If no conversion has a name for it, the colours are made scene-linear.
 bool take_space(Session& session, std::string& space)
 {
     pimg::Colour colour;
@@ -225,7 +225,7 @@ bool channels(Session& session, const Words& words)
         for (const int c : order)
             stored.per_channel.push_back(before[std::size_t(c)]);
     }
-    session.top().others.clear();  // no channel of another part was named
+    session.top().others.clear();  // the channels chosen are all of this part
     const bool done = session.change_pixels([&](ImageBuf& dst, const ImageBuf& src) {
         return OIIO::ImageBufAlgo::channels(dst, src, int(order.size()), order);
     });

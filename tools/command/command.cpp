@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The grammar, in one loop over the arguments. OpenImageIO's ArgParse is not used: it would hand over every
-// `--op:key=value` unparsed and its help knows nothing of keys, so what it takes off us is less than the adapting
-// costs, while one table of our own serves parsing, checks, --help, manual and completion alike.
+// The grammar of the command line, in one loop over the arguments. OpenImageIO's ArgParse is not used: it would leave
+// every `--op:key=value` unparsed, and its help knows no keys. One table of our own serves parsing, checks, --help, the
+// manual page and completion.
 #include "command/command.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ std::size_t distance(const std::string& a, const std::string& b)
 std::string unknown_command(const std::string& name)
 {
     const Command* nearest = nullptr;
-    std::size_t least = 4;  // further off is no misspelling
+    std::size_t least = 4;  // a word that differs more is no misspelling
     for (const CommandGroup& group : command_table())
         for (const Command& command : group.commands) {
             const std::size_t d = distance(name, command.name);

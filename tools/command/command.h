@@ -28,7 +28,7 @@ struct Call {
 struct Step {
     std::string label;
     std::function<bool(Session&)> run;
-    bool writes = false;  ///< a file: not while a shot is measured
+    bool writes = false;  ///< writes a file, and is left out while a shot is measured
 };
 
 /// Which of a sequence's frames a program is for.
@@ -43,8 +43,8 @@ struct Program {
     std::vector<Step> steps;
     std::vector<std::string> inputs, written;  ///< names of files, in order
     int pictures = 0;                          ///< on the stack after the steps so far
-    std::string dangling;                      ///< an output setting that no -o has followed yet
-    std::string dangling_input;                ///< an input setting that no file has followed yet
+    std::string dangling;                      ///< an output setting that still needs an -o after it
+    std::string dangling_input;                ///< an input setting that still needs a file after it
     int threads = 0;                           ///< 0: one per core
     bool informs = false;                      ///< something is printed that needs no pictures
     std::string stats;                         ///< how to print figures: text, json; empty: not
@@ -66,7 +66,7 @@ struct Command {
     const char* name;   ///< "--level"
     const char* words;  ///< names of the words that follow, "FROM TO"; "" for none
     const char* help;   ///< one line
-    int needs, adds;    ///< pictures it takes for granted on the stack, and how many more there are afterwards
+    int needs, adds;    ///< pictures that must be on the stack, and how many more there are afterwards
     std::vector<pimg::OptionInfo> (*keys)();  ///< of the :key=value suffix; null for none
     /// Checks all that can be checked now and appends steps or sets a switch of `program`.
     std::function<bool(const Call&, Program&, std::string& error)> prepare;
@@ -99,7 +99,7 @@ bool turns_upright(const Program& program);
 /// Whether a file is written that holds several parts, so that all parts of the inputs are read.
 bool keeps_parts(const Program& program);
 
-/// Runs the steps, or for measuring those up to --hdr-compress but for writing.
+/// Runs the steps. To measure a shot, only those up to --hdr-compress, and none that write files.
 bool run_steps(const Program& program, Session& session);
 
 /// Checks `arguments` and turns them into a program. False with a line in `error` for anything that is wrong.

@@ -60,7 +60,7 @@ bool hdr_compress(Session& session, const pimg::HdrCompressOptions& options)
     return session.hdr_compress(options);
 }
 
-/// Counted, as --shot-stats needs to know which one it is for.
+/// The row of --hdr-compress. It counts how often it is used, because --shot-stats needs to know which one it is for.
 Command hdr_compress_row(const pimg::Filter& filter)
 {
     Command row = operation<pimg::HdrCompressOptions>(filter.command, filter.summary, hdr_compress);
@@ -97,7 +97,7 @@ bool verbose(const Call&, Program& program, std::string&)
     return program.verbose = true;
 }
 
-/// --help and --version answer before anything else is looked at; they are in the table to be listed.
+/// For --help and --version, which are answered before the command line is read; the table only lists them.
 bool answered_already(const Call& call, Program&, std::string& error)
 {
     HelpOptions options;

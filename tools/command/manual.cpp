@@ -44,7 +44,7 @@ std::string quoted(const std::string& text)
     return "'" + OIIO::Strutil::replace(text, "'", "'\\''", true) + "'";
 }
 
-/// Words that may be chosen from where one of this name is to follow.
+/// The words that may stand in place of a word of this name.
 std::string choices_for(const std::string& word)
 {
     return word == "TYPE" ? OIIO::Strutil::replace(kOutputTypes, ",", "", true) : "";
@@ -80,8 +80,8 @@ std::string manual_page()
     return text;
 }
 
-/// The rest of the function for bash, after its tables. Of the word, bash replaces only what follows the last of its own
-/// word breaks, ':' and '=' among them.
+/// The function for bash after its tables. Bash replaces only the part of a word after the last of its word breaks,
+/// among which are ':' and '='.
 static constexpr char kCompletion[] = R"BASH(    local line=${COMP_LINE:0:COMP_POINT}
     local word=${line##* } before=${line% *}
     local previous=${before##* } choices done_part=

@@ -42,7 +42,7 @@ inline Command filter(const pimg::Filter& row)
         if (!bind(call.keys, bound, error))
             return false;
         for (const auto& [key, value] : call.keys)
-            program.autoorient |= key == "strokes";  // their file cannot say which way is up
+            program.autoorient |= key == "strokes";  // the files of strokes cannot say which way is up
         const auto run = [bound](OIIO::ImageBuf& dst, const pimg::ProgressiveImage& src) {
             return bound(dst, src, {}, 0);
         };

@@ -48,8 +48,8 @@ std::size_t printf_pattern(const std::string& text, std::size_t at, std::size_t&
     return end + 1 - at;
 }
 
-/// Whether a name says "1001-1003#", as other programs have it: there the numbers are frames, here they would become
-/// part of the name.
+/// Whether a name has a range of frames such as "1001-1003#", which other programs understand. Here the numbers would
+/// become part of the name.
 bool has_range(const std::string& name)
 {
     for (std::size_t at = name.find_first_of("#@"); at != name.npos; at = name.find_first_of("#@", at + 1)) {
@@ -110,7 +110,7 @@ bool parse_one(const std::vector<std::string>& arguments, const Frame& frame, co
     return true;
 }
 
-/// What is thrown becomes the session's error.
+/// Calls run(). Exceptions become the session's error.
 bool run_caught(const std::function<bool(const Program&, Session&)>& run, const Program& program, Session& session)
 {
     try {
@@ -176,7 +176,7 @@ bool for_each_frame(const std::vector<Program>& programs, bool parallel, Stats& 
 {
     std::size_t workers = 1;
     if (parallel && programs.size() > 1) {
-        // One thread for each frame: nothing waits for anything.
+        // Frames run side by side with one thread each, so that no thread has to wait for another.
         const int threads = OIIO::get_int_attribute("threads");
         workers = std::min(std::size_t(std::max(threads, 1)), programs.size());
         OIIO::attribute("threads", 1);
@@ -200,7 +200,7 @@ bool for_each_frame(const std::vector<Program>& programs, bool parallel, Stats& 
             stats.add(session.stats);
             if (done)
                 continue;
-            next = programs.size();  // what has been begun is finished
+            next = programs.size();  // no further frame is begun; those begun are finished
             if (i < failed) {
                 failed = i;
                 error = with_name(program.frame, session.error());

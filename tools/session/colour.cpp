@@ -48,7 +48,7 @@ bool set_context_variable(const std::string& assignment, std::string& error)
 OIIO::ColorConfig& colour_config()
 {
     static OIIO::ColorConfig config;
-    config.geterror();  // OpenImageIO 2.4 complains of there being no $OCIO, and falls back
+    config.geterror();  // OpenImageIO 2.4 reports an error if $OCIO is not set, although it goes on without
     return config;
 }
 
@@ -100,7 +100,7 @@ OIIO::ColorProcessorHandle conversion(const std::string& from, const std::string
                              colour_config().getNumDisplays() ? "the configuration $OCIO"
                                                               : "OpenImageIO ($OCIO names no configuration)",
                              Strutil::join(colour_config().getColorSpaceNames(), ", "));
-    colour_config().geterror();  // said better
+    colour_config().geterror();  // replaced by a better message
     return processor;
 }
 

@@ -60,8 +60,9 @@ OIIO::ColorProcessorHandle display_transform(const std::string& display, const s
 /// The name of the space that transform leads to; empty if the configuration does not say.
 std::string display_space(const std::string& display, const std::string& view);
 
-/// The space of a file, for oiio:ColorSpace: as a rule of the configuration has it if the metadata names no space but
-/// at best what the format is usually in, and holds neither chromaticities nor an ICC profile; else as the metadata says.
+/// The space of a file, for oiio:ColorSpace. A rule of the configuration decides, unless the metadata holds
+/// chromaticities, an ICC profile, or the name of another space than files of the format usually have; then the
+/// metadata decides.
 std::string space_of_file(const std::string& filename, const OIIO::ImageSpec& stored);
 
 using pimg::declare_space;

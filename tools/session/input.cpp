@@ -51,8 +51,8 @@ bool turn_upright(ImageBuf& pixels)
     return true;
 }
 
-/// A reader for the file: that of .pimg files is the one linked in. `filename` is what the user calls it, whose extension
-/// names formats that their first bytes do not tell. Null, with a line in `error`, if there is none.
+/// A reader for the file; for .pimg files the one that is linked in. `filename` is the name that the user gave: its
+/// extension decides if the first bytes do not tell the format. Null, with a line in `error`, if there is no reader.
 std::unique_ptr<OIIO::ImageInput> open_input(const std::string& filename, const std::string& path,
                                              const ImageSpec& config, std::string& error)
 {
@@ -107,12 +107,12 @@ std::vector<ImageSpec> specs_of(OIIO::ImageInput& input)
     std::vector<ImageSpec> specs;
     for (int i = 0; input.seek_subimage(i, 0); ++i)
         specs.push_back(input.spec());
-    input.geterror();  // there are no more
+    input.geterror();  // only says that there are no more parts
     return specs;
 }
 
-/// Orientation by the line of a Radiance file that says in which order its pixels are, 0 if there is none. OpenImageIO
-/// exchanges those of "+X +Y" and "-X -Y".
+/// The orientation of a Radiance file, from the line that gives the order of its pixels; 0 if there is none.
+/// OpenImageIO confuses "+X +Y" with "-X -Y".
 int radiance_orientation(const std::string& path)
 {
     constexpr std::size_t kLongestHeader = 1 << 16;
@@ -176,7 +176,7 @@ std::string not_used(const std::vector<ImageSpec>& specs, int used)
                   part_name(specs[std::size_t(used)], used), names_of(specs));
 }
 
-/// What file rules of the configuration say of the colour space.
+/// Sets the colour space that the file rules of the configuration say.
 void declare_ruled_space(const std::string& filename, InputPart& part)
 {
     const std::string space = part.stored.get_string_attribute("oiio:ColorSpace");

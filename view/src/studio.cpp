@@ -15,7 +15,7 @@ namespace {
 
 using pimg::format;
 
-/// Parts of the picture that may come into view next are made, too.
+/// The visible part with a margin, which may come into view next.
 Region with_margin(const Region& visible, const OIIO::ImageSpec& spec)
 {
     const int dx = (visible.x1 - visible.x0) / 4, dy = (visible.y1 - visible.y0) / 4;
@@ -34,7 +34,7 @@ bool filters(const FilterStack& stack)
     return std::any_of(stack.items.begin(), stack.items.end(), [](const StackItem& item) { return item.on; });
 }
 
-/// How many pixels of a rung a texel is the mean of, along each side.
+/// The side, in pixels of a rung, of the square that a texel is the mean of.
 int reduction(double scale, int factor)
 {
     int reduce = 1;
@@ -76,7 +76,7 @@ void Studio::want(const Wanted& asked)
     }
     const Rung* finest = built_rung(document, 0.0);
     const Rung* fitting = built_rung(document, std::max(1.0, wanted.scale));
-    // A smaller copy at first only while it is dragged, or if it is there and the whole takes longer.
+    // A smaller copy comes first if there is one and the finest takes long, that is with filters.
     const bool both = finest != fitting && filters(wanted.stack);
     if (wanted.dragging || both)
         post(m_quick, m_quick_renderer, true);
@@ -166,7 +166,7 @@ void Studio::add_source(const Request& request, Shown& shown) const
 
 void Studio::add_overlays(const Request& request, const Rung& rung, Shown& shown) const
 {
-    constexpr pimg::Index kUsual = 2000;  // as many vertices as show what pieces are in a picture of any size
+    constexpr pimg::Index kUsual = 2000;  // enough to show what pieces are, in a picture of any size
     const pimg::Index vertices = request.wanted.mesh > 0 ? request.wanted.mesh : kUsual;
     const std::shared_ptr<const Shown> before = this->shown();
     if (request.wanted.mesh > 0) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All of the program but its window: what is open, what is wanted of it, and the newest picture that has been made. Nothing
-// here waits: pictures are made by threads.
+// The program without its window: what is open, what is to be shown of it, and the newest picture that has been made.
+// No function here waits for a picture; threads make them.
 #pragma once
 
 #include <functional>
@@ -57,7 +57,7 @@ public:
     Document& document() { return m_document; }
     const Document& document() const { return m_document; }
 
-    /// Tells what is wanted. Cheap if it is what was wanted before.
+    /// Says what is to be shown. Takes no time if nothing has changed.
     void want(const Wanted& wanted);
 
     /// The newest picture; null if there is none yet.
@@ -66,7 +66,7 @@ public:
     /// One line that says why the newest request gave no picture; empty: it did.
     std::string error() const;
 
-    /// Whether all that was wanted is shown, with all pixels, and nothing more is being done.
+    /// Whether everything that was wanted is shown, at full resolution, and no work is left.
     bool settled() const;
 
     void save(const FilterStack& stack, const std::string& filename);
@@ -100,7 +100,7 @@ private:
     int m_rungs_built = 0;
     Document m_document;
     Renderer m_quick_renderer, m_full_renderer;
-    Worker m_quick, m_full, m_saver;  ///< last: they end before what they work on goes
+    Worker m_quick, m_full, m_saver;  ///< last, so that they end before what they work on is destroyed
 };
 
 }  // namespace pimgview

@@ -53,7 +53,7 @@ bool slider(const OptionInfo& option, const std::string& value, std::string& cha
     const SliderRange range = slider_range(option);
     const bool whole = option.type == "int";
     double number = value.empty() ? std::max(range.low, 0.0) : OIIO::Strutil::stod(value);
-    // Room for numbers between the ends of a logarithmic scale and none between whole ones.
+    // Four digits, so that a logarithmic slider can show its small values; whole numbers without a fraction.
     const char* shown = value.empty() ? "not set" : whole ? "%.0f" : "%.4g";
     const ImGuiSliderFlags flags =
         (range.logarithmic ? ImGuiSliderFlags_Logarithmic : 0) | ImGuiSliderFlags_NoRoundToFormat;
@@ -80,7 +80,7 @@ bool menu(const OptionInfo& option, const std::string& value, std::string& chang
     return chosen;
 }
 
-/// Taken when the user leaves the field, not letter by letter: half a word is seldom a value.
+/// A field whose text counts when the user leaves it, and not at every letter, since half a word is seldom a value.
 bool text_field(const OptionInfo& option, const std::string& value, std::string& changed)
 {
     std::string text = value;

@@ -47,7 +47,7 @@ std::string samples_text(const PixelValue& value)
     return text;
 }
 
-/// The look as texts, so that the widgets of filters serve for it.
+/// The look as texts of options, so that it can have the same widgets as filters.
 pimg::OptionTexts texts_of(const LookOptions& look)
 {
     pimg::OptionTexts texts;
@@ -210,7 +210,8 @@ bool Panels::filter(Workbench& bench, std::size_t index)
     return removed;
 }
 
-/// From the base mesh to all pixels: the vertices of the filter `level`, put first if it is not there.
+/// A slider from the base mesh to all pixels. It sets the number of vertices of the filter `level`, which becomes the
+/// first filter if there is none yet.
 void Panels::level_slider(Workbench& bench)
 {
     const DocumentState document = bench.studio.document().state();

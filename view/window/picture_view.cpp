@@ -120,7 +120,7 @@ void PictureView::draw(Workbench& bench, int buffer_width, int buffer_height)
     const double zoom = m_area.zoom(look);
     const Placement placement { m_area.left(look), m_area.top(look), zoom, buffer_width, buffer_height };
     const Region& region = shown->frame->region;
-    // Blocks at the right and lower edges may reach beyond the picture.
+    // Texels at the right and lower edges may reach beyond the picture.
     const int right = std::min(m_area.x + m_area.width, int(std::ceil(placement.left + m_area.picture_width * zoom)));
     const int bottom = std::min(m_area.y + m_area.height, int(std::ceil(placement.top + m_area.picture_height * zoom)));
     const int left = std::max(m_area.x, int(std::floor(placement.left + region.x0 * zoom)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// pimgview: pictures, and every option of every filter as a slider.
+// pimgview shows pictures, with a widget for every option of every filter.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -38,7 +38,7 @@ int run(const std::vector<std::string>& words)
         std::fputs(arguments.help ? pimgview::help_text().c_str() : "pimgview " PIMG_VERSION_STRING "\n", stdout);
         return 0;
     }
-    OIIO::attribute("debug", 0);  // Debian's library talks on standard error otherwise
+    OIIO::attribute("debug", 0);  // otherwise Debian's library writes to standard error
     pimgview::Window window(arguments);
     return window.open(error) && window.run(error) ? 0 : report(error);
 }

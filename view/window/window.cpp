@@ -239,7 +239,7 @@ bool Window::run(std::string& error)
     if (ends)
         m_bench->remember();
     if (!m_bench->studio.stop()) {
-        // A filter or a reader that runs to its end must not keep the user waiting; nothing of it would be kept.
+        // The user must not have to wait for a filter or a reader to end, whose result would be lost anyway.
         std::fflush(nullptr);
         std::_Exit(failed ? 1 : 0);
     }
@@ -312,7 +312,7 @@ void Window::print_measurement() const
     std::printf("memory %.0f MB\n", double(document.memory() + m_view->info().texture_memory) / 1e6);
 }
 
-/// Keys but those that end the program or write files, clicks, drags and the wheel, anywhere.
+/// Random keys (but none that end the program or write files), clicks, drags and turns of the wheel, anywhere.
 void Window::inject_random_events()
 {
     ImGuiIO& io = ImGui::GetIO();

@@ -14,7 +14,7 @@ namespace pimgview {
 
 namespace {
 
-/// Where one is looking is not undone: it would take the eye away from what changes.
+/// Undo does not change zoom and place, which would draw the eye away from what changes in the picture.
 Snapshot without_place(Snapshot snapshot)
 {
     const LookOptions none;
@@ -113,7 +113,7 @@ void Workbench::restore(const Snapshot& snapshot)
 void Workbench::act_on_look(Action action)
 {
     constexpr float kStops = 0.5f, kGammaStep = 1.1f;
-    constexpr int kUsualMesh = 2000;  // vertices that show what a mesh is in a picture of any size
+    constexpr int kUsualMesh = 2000;  // vertices: enough to show what a mesh is, in a picture of any size
     static const std::pair<Action, bool LookOptions::*> switches[] = {
         { Action::clipped, &LookOptions::clipped },   { Action::histogram, &LookOptions::histogram },
         { Action::waveform, &LookOptions::waveform }, { Action::piece, &LookOptions::piece },

@@ -49,7 +49,7 @@ Bytes BinaryWriter::finish()
 {
     for (int k = 0; k < 5; ++k)
         shift_low();
-    // The first byte is always 0; a reader sees zeros past the end, so up to four need not be written.
+    // The first byte is always 0. Past the end a reader sees zeros, so up to four zeros at the end need not be written.
     m_out.erase(m_out.begin());
     for (int k = 0; k < 4 && !m_out.empty() && m_out.back() == 0; ++k)
         m_out.pop_back();

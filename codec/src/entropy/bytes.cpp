@@ -133,7 +133,7 @@ std::uint32_t crc32(std::uint32_t crc, const void* data, std::size_t size)
 
 namespace {
 
-/// Of XXH64, as its specification names them.
+/// The five primes of XXH64, in the order of its specification.
 constexpr std::uint64_t kPrime[5] = { 0x9e3779b185ebca87u, 0xc2b2ae3d27d4eb4fu, 0x165667b19e3779f9u,
                                       0x85ebca77c2b2ae63u, 0x27d4eb2f165667c5u };
 

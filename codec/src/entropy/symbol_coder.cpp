@@ -108,7 +108,7 @@ std::array<std::uint32_t, kTokens> frequencies(const Histogram& h)
                 1, std::uint32_t((std::uint64_t(h.count[t]) * kProbabilities + h.total / 2) / h.total));
             left -= f[t];
         }
-    // Rounding is settled where a step costs least: at the most frequent tokens.
+    // What rounding left over or took too much is made up where it costs least: at the most frequent tokens.
     while (left != 0) {
         const auto most = std::max_element(f.begin(), f.end());
         const std::int64_t step = left > 0 ? left : std::max<std::int64_t>(left, -std::int64_t(*most / 4));
@@ -118,7 +118,7 @@ std::array<std::uint32_t, kTokens> frequencies(const Histogram& h)
     return f;
 }
 
-constexpr std::uint32_t kLengthModels = kProbabilityBits + 2;  ///< one for each length of a frequency before, and for 0
+constexpr std::uint32_t kLengthModels = kProbabilityBits + 2;  ///< one for each length in bits of the frequency before
 
 Bytes write_tables(const std::vector<Context>& contexts, const std::vector<std::array<std::uint32_t, kTokens>>& tables)
 {
@@ -277,7 +277,7 @@ bool SymbolReader::read_tables(const std::uint8_t* data, std::size_t size)
         table.range.fill({ 0, 0 });
         std::uint32_t before = 0, sum = 0;
         for (std::uint32_t t = 0; t < used; ++t) {
-            // The last frequency is what is missing.
+            // The last frequency is not stored: it is what is left of the sum.
             const std::uint32_t f = t + 1 < used ? model[bit_length(before)].read(in) : kProbabilities - sum;
             if (f > kProbabilities - sum || in.overrun())
                 return false;

@@ -70,8 +70,8 @@ struct SymbolTable {
     std::array<Range, kTokens> range;
 };
 
-/// The moving part of a SymbolReader. Loops copy it to a local variable, where it can live in registers. Nothing here
-/// branches on data; past the ends it reads padding and counts on.
+/// The part of a SymbolReader that changes while it reads. Loops copy it to a local variable, which can live in
+/// registers. There are no branches on data; past the ends of the stream it reads padding and goes on counting.
 struct SymbolCursor {
     const SymbolTable* const* table_of = nullptr;  ///< by class
     const std::uint16_t* words = nullptr;
@@ -87,7 +87,7 @@ struct SymbolCursor {
         const std::uint32_t token = table.token[slot];
         const SymbolTable::Range range = table.range[token];
         std::uint32_t y = range.frequency * (x >> kProbabilityBits) + slot - range.start;
-        const std::uint32_t low = y < kStateLow;  // once in a few numbers, at random: so in arithmetic
+        const std::uint32_t low = y < kStateLow;  // unpredictable, hence arithmetic in place of a branch
         y = y << (16 * low) | (words[word < word_count ? word : word_count] & (0u - low));
         word += low;
         state[0] = state[1];
@@ -130,7 +130,7 @@ public:
     SymbolCursor cursor() const { return m_cursor; }
     void set_cursor(const SymbolCursor& cursor) { m_cursor = cursor; }
 
-    /// Whether everything was read and nothing more.
+    /// Whether all of the stream was read, and nothing past its end.
     bool finished() const;
 
 private:
@@ -138,8 +138,8 @@ private:
 
     std::array<const SymbolTable*, kClasses> m_table_of {};
     std::vector<SymbolTable> m_tables;
-    std::vector<std::uint16_t> m_words;  ///< and one more
-    Bytes m_raw;                         ///< and eight more
+    std::vector<std::uint16_t> m_words;  ///< and one word of padding
+    Bytes m_raw;                         ///< and eight bytes of padding
     SymbolCursor m_cursor;
 };
 

@@ -156,7 +156,7 @@ struct Plane10 {
         const std::int64_t scale = 1024 * kSubpixels;
         per_x = std::clamp(floor_div(((b - a) * y2 - (c - a) * y1) * scale, area), -kSteepest, kSteepest);
         per_y = std::clamp(floor_div(((c - a) * x1 - (b - a) * x2) * scale, area), -kSteepest, kSteepest);
-        // From the vertex itself, which need not lie on a pixel.
+        // Measured from the vertex itself, which need not lie on a pixel.
         start = a * 1024 - floor_div(per_x * p[0].x + per_y * p[0].y, kSubpixels);
         low = std::min({ a, b, c });
         high = std::max({ a, b, c });

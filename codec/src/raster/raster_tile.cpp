@@ -19,7 +19,8 @@ std::int64_t size(std::int64_t v)
 /// W + N - NW kept between W and N: follows edges in either direction (LOCO-I, Weinberger et al. 2000).
 std::int64_t median(std::int64_t w, std::int64_t n, std::int64_t nw)
 {
-    const std::int64_t under = (w - n) & ((w - n) >> 63);  // which is less cannot be predicted: so in arithmetic
+    // min(w - n, 0). A processor cannot predict which of the two is less, so there is no branch.
+    const std::int64_t under = (w - n) & ((w - n) >> 63);
     return std::max(n + under, std::min(w + n - nw, w - under));
 }
 
@@ -36,9 +37,9 @@ std::int64_t predict(std::int64_t w, std::int64_t n, std::int64_t nw, std::int64
         return (6 * w + 5 * n - 4 * nw + ne + 4) >> 3;
 }
 
-/// Visits the samples in row order with the prediction and the class of the residual to come. The class does not depend
-/// on the sample to the left: so a processor finds it while that one is still being decoded. visit(at, prediction,
-/// class) sets values[at] and returns the size of the residual.
+/// Visits the samples in row order with the prediction and the class of the next residual. The class does not depend on
+/// the sample to the left, so that a processor can find it while that sample is still being decoded. visit(at,
+/// prediction, class) sets values[at] and returns the size of the residual.
 template<Shape Predicted, bool OverMesh, class Visit>
 void walk(const TileChannel& t, Visit&& visit)
 {

@@ -25,12 +25,12 @@ struct TileChannel {
     const std::int32_t* gouraud = nullptr;  ///< the mesh layer there; needed by predictors that use it
     /// Size of the residuals of the channel before this one (saturated at 65535), or nullptr for the first.
     const std::uint16_t* guide = nullptr;
-    std::uint16_t* sizes = nullptr;  ///< receives this channel's
+    std::uint16_t* sizes = nullptr;  ///< receives the sizes of this channel's residuals
 
     std::size_t pixels() const { return std::size_t(width) * std::size_t(height); }
 };
 
-/// Appends the cheaper of the two codings.
+/// Appends the smaller of two codings of the residuals: by the symbol coder, or as byte planes packed by zstd.
 void write_tile_channel(const TileChannel& channel, TilePredictor predictor, Bytes& out);
 
 /// Bits, in 1/256, the residuals would take: an estimate without the coding itself.

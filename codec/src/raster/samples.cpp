@@ -146,7 +146,7 @@ void range_of(SampleType type, std::int32_t& low, std::int32_t& high)
     case SampleType::uint16:
         low = 0, high = 65535;
         break;
-    // An approximation need not show infinities and NaN.
+    // Only finite numbers: the mesh layer is an approximation, which need not show infinities and NaN.
     case SampleType::half:
         low = -1 - 0x7bff, high = 0x7bff;
         break;

@@ -33,8 +33,8 @@ public:
     Point extent() const { return { (m_width - 1) * kSubpixels, (m_height - 1) * kSubpixels }; }
     Index size() const { return Index(vertices.size()); }
     bool alive(Index v) const { return vertices[v].degree > 0; }
-    /// Keeps only these vertices (increasing, all that are alive) and numbers them anew, in the same order: what is
-    /// still at work lies together.
+    /// Keeps only these vertices (increasing, all that are alive) and numbers them anew, in the same order, so that the
+    /// living are next to each other in memory.
     void keep(const std::vector<Index>& survivors);
 
     /// False when t and u are no neighbours or merging them would break the mesh.
@@ -46,13 +46,14 @@ public:
     struct Candidates {
         int count = 0;
         Index nearest = kGhost;
-        std::uint32_t symbol_class = 0;  ///< under which the choice is coded: how many, and how clear the nearest is
+        std::uint32_t symbol_class = 0;  ///< of the choice: how many there are, and how clearly one is nearest
     };
     Candidates candidates(Index t) const;
     /// Number `choice` of them, or kGhost.
     Index candidate(Index t, std::uint32_t choice) const;
 
-    /// Brings what a collapse at v will touch nearer: first its own ring, a few collapses later its neighbours'.
+    /// Prefetches what a collapse at v will touch: here its own ring, and in prefetch_ring(), to be called some
+    /// collapses later, its neighbours'.
     void prefetch(Index v) const
     {
         __builtin_prefetch(&rings[v]);
@@ -67,7 +68,7 @@ public:
 
     struct Vertex {
         Point at;
-        Index pixel;          ///< it began as
+        Index pixel;          ///< that the vertex began as
         std::int32_t degree;  ///< of its ring; 0: merged into another
     };
     std::vector<AlignedRing> rings;

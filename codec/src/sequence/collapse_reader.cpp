@@ -52,7 +52,7 @@ void volume_shares(const CollapseStar& star, Point t, Point u, VolumeShares& sha
     shares.u = float(double(of_u) * scale);
 }
 
-/// As project(), with the areas of the faces at hand.
+/// As project(), for a star whose faces' areas are known already.
 Projection project_onto(const CollapseStar& star, Point s, Point p)
 {
     const std::int64_t px = p.x - s.x, py = p.y - s.y;
@@ -64,7 +64,7 @@ Projection project_onto(const CollapseStar& star, Point s, Point p)
     return projection(face, star.ring, star.areas[face.a]);
 }
 
-/// The vertices still there, as bits.
+/// The vertices that are not merged yet, as bits.
 class AliveSet {
 public:
     void assign(const CollapseMesh& mesh)
@@ -88,7 +88,7 @@ public:
     class Walk {
     public:
         explicit Walk(const AliveSet& set) : m_words(set.m_words), m_rest(set.m_words.empty() ? 0 : set.m_words[0]) { }
-        /// Leaves `gap` of them out and gives the next; kGhost at the end.
+        /// Leaves out `gap` of them and returns the next; kGhost at the end.
         Index next(std::uint32_t gap)
         {
             for (std::uint32_t here; (here = std::uint32_t(__builtin_popcountll(m_rest))) <= gap; gap -= here) {
@@ -148,7 +148,7 @@ private:
     std::vector<std::vector<float>> m_values;
     std::vector<Bands> m_bands;
     AliveSet m_alive;
-    std::vector<Index> m_batch;  ///< t of each collapse of the batch at hand
+    std::vector<Index> m_batch;  ///< t of each collapse of the current batch
     std::vector<Index> m_born;   ///< u of each collapse
     SymbolReader m_gap, m_choice, m_x, m_y;
     CollapseStar m_star;
@@ -286,7 +286,7 @@ bool SequenceReader::read_batch(ByteReader& heads)
         if (m_batch.back() == kGhost)
             return false;
     }
-    // Where it goes is known well ahead: memory need not be waited for.
+    // The vertices of the whole batch are known by now, so memory can be prefetched.
     constexpr std::size_t kFar = 12, kNear = 5;
     for (std::size_t i = 0; i < m_batch.size(); ++i) {
         if (i + kFar < m_batch.size())

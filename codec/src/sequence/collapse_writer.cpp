@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the collapse sequence. The hierarchy's collapses, fine to coarse, are dealt into batches; within a batch they
-// run through the picture row by row: the way the engine went, so that most chains of dependent collapses fit into one.
-// A collapse that would come before another it needs waits for the next batch.
+// Writes the collapse sequence. The hierarchy's collapses, fine to coarse, are divided into batches. Within a batch
+// they run through the picture row by row, as the engine did, so that most chains of dependent collapses fit into one
+// batch. A collapse that would come before another it needs waits for the next batch.
 #include <algorithm>
 #include <cstring>
 
@@ -14,9 +14,9 @@ namespace pimg {
 
 namespace {
 
-/// Share of the vertices left that a batch collapses. A third of it makes the sequence of six pictures 8 to 10 % larger;
-/// with three times as much it is 6 to 8 % smaller, but the order of splits within a batch is lost, which docs/internals.md
-/// weighs.
+/// Share of the vertices left that a batch collapses. A third of it makes the sequence of six pictures 8 to 10 %
+/// larger; with three times as much it is 6 to 8 % smaller, but the order of splits within a batch is lost, which
+/// docs/internals.md weighs.
 constexpr double kBatchShare = 0.03;
 
 /// Collapses of a chunk, or a few more: a reader holds a whole chunk, here at most some megabytes.

@@ -97,7 +97,8 @@ public:
         m_found.clear();
         const int width = m_chosen.width, height = m_chosen.height;
         Box box {};
-        // Any vertex near the edge, then a single pass: circles over an edge lie within each other.
+        // First any vertex near the edge. The empty circle lies within its circle, so one search of that finds the
+        // rest.
         for (int reach = std::max(2, std::max(std::abs(a.x - b.x), std::abs(a.y - b.y))); m_found.empty(); reach *= 2) {
             box = Box { (a.x + b.x) / 2 - reach, (a.x + b.x) / 2 + reach, (a.y + b.y) / 2 - reach,
                         (a.y + b.y) / 2 + reach };

@@ -19,8 +19,8 @@ std::int64_t doubled(Pixel a, Pixel b, Pixel p)
     return (b.x - a.x) * (p.y - a.y) - (p.x - a.x) * (b.y - a.y);
 }
 
-/// Finds the owner of every pixel: the triangle that holds it, and of two that share its edge always the
-/// same whatever their order.
+/// Finds for every pixel the triangle that holds it. Of two triangles whose common edge the pixel lies on, it is always
+/// the same one, whatever their order.
 class Cover {
 public:
     Cover(int width, int height, const std::vector<Triangle>& triangles)
@@ -47,7 +47,8 @@ private:
     std::vector<Index> m_owner;
 };
 
-/// Whether pixels on the edge from a to b are the triangle's: one of two opposite directions, and those on the sides.
+/// Whether pixels on the edge from a to b belong to the triangle: those of edges of one of two opposite directions do,
+/// and those on the sides of the picture, where there is no second triangle.
 bool Cover::owns(Pixel a, Pixel b) const
 {
     const bool on_side =

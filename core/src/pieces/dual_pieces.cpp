@@ -9,8 +9,8 @@ namespace pimg {
 
 namespace {
 
-/// The vertex of the finest mesh each mesh pixel belongs to: its own or, of the corners of the face a pixel without one
-/// lies in, that with the largest weight. kGhost in a damaged hierarchy.
+/// For each mesh pixel the vertex of the finest mesh that it belongs to: its own vertex if it has one, else the corner
+/// with the largest weight of the face that the pixel lies in. kGhost in a damaged hierarchy.
 std::vector<Index> finest_pieces(const Hierarchy& h)
 {
     std::vector<Index> vertex_at(h.mesh_pixels(), kGhost);
@@ -26,8 +26,9 @@ std::vector<Index> finest_pieces(const Hierarchy& h)
     return vertex_at;
 }
 
-/// Where each vertex's run of pixels begins: its own pixels first, then its children's runs, the youngest next to it.
-/// Taking the children from old to young, each gets the end of what is left of its parent's run.
+/// Where each vertex's run of pixels begins. The run holds the pixels of the vertex itself, then the runs of its
+/// children, which are the vertices split from it, the youngest first. So if children are taken from old to young, each
+/// gets the end of what is left of its parent's run.
 std::vector<Index> first_of_runs(const std::vector<Index>& parents, const std::vector<Index>& span, Index base)
 {
     std::vector<Index> first(parents.size()), left = span;
@@ -92,7 +93,7 @@ Status DualPieces::from_hierarchy(const Hierarchy& h, DualPieces& pieces)
 
 std::vector<Index> DualPieces::labels(Level level) const
 {
-    // Parents have smaller numbers: one pass settles the piece of every vertex.
+    // Parents have smaller numbers, so one pass finds the piece of every vertex.
     const Index n = count(std::min(level, levels()));
     std::vector<Index> piece(m_parents.size());
     for (Index v = 0; v < Index(piece.size()); ++v)

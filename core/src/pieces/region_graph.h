@@ -18,7 +18,7 @@ public:
     };
     struct Shared {
         float length;    ///< pixel sides
-        float strength;  ///< sum of the gradient's over them
+        float strength;  ///< sum of the gradient over these sides
     };
 
     explicit RegionGraph(Index regions) : m_first(regions, kGhost), m_mark(regions, kGhost) { }
@@ -32,7 +32,8 @@ public:
     Index to(Index h) const { return m_links[h].to; }
     const Shared& shared(Index h) const { return m_shared[h >> 1]; }
 
-    /// Moves the borders of `gone` to `kept`: borders to a common neighbour become one, theirs vanishes.
+    /// Moves the borders of `gone` to `kept`. Two borders to a common neighbour become one, and the border between
+    /// `kept` and `gone` vanishes.
     void merge(Index kept, Index gone);
 
 private:

@@ -16,7 +16,7 @@ namespace pimg {
 
 namespace {
 
-constexpr std::size_t kMaxChannels = 64;  ///< far above what tells regions apart; a limit for untrusted callers
+constexpr std::size_t kMaxChannels = 64;  ///< more than any picture needs; limits what an untrusted caller can ask for
 
 /// Gaussian of one channel, edges repeated. In place, through one row or column at a time.
 void smooth(std::vector<float>& samples, std::size_t width, std::size_t height, float sigma)
@@ -90,7 +90,7 @@ struct Later {
 
 }  // namespace
 
-/// Greedy merging with a queue of regions, each under its cheapest border.
+/// Greedy merging. A queue holds every region, ordered by the cost of its cheapest border.
 class RegionMerger {
 public:
     RegionMerger(const ChannelsView& picture, const RegionOptions& options, RegionTree& tree);
@@ -147,7 +147,8 @@ void RegionMerger::add_pieces(const ChannelsView& picture)
         m_means[i] = float(sums[i] / double(m_regions[i / m_channels].area));
 }
 
-/// One border per pair of pieces: those of each piece are gathered from its pixels' sides, sorted.
+/// Adds one border per pair of neighbouring pieces. The borders of a piece are gathered from the sides of its pixels,
+/// sorted.
 void RegionMerger::add_borders(const ChannelsView& picture)
 {
     const std::vector<Index>& leaf_of = m_tree.m_leaf_of;
@@ -192,7 +193,7 @@ float RegionMerger::cost(Index a, Index b, const RegionGraph::Shared& shared) co
         difference += (ma[c] - mb[c]) * (ma[c] - mb[c]);
     const float weight = ra.area * rb.area / (ra.area + rb.area);
     const float edge = shared.strength / shared.length;
-    // Roots are exact everywhere, other powers are not.
+    // A square root has the same bits on every machine; other powers have not.
     const float contact = std::min(ra.area, rb.area) / (shared.length * shared.length);
     const float shape = std::sqrt(std::sqrt(std::sqrt(std::sqrt(contact))));
     return weight * (m_options.floor + difference + m_options.boundary * edge) * shape;

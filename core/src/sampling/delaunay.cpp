@@ -113,7 +113,8 @@ void Sweep::join(int left, int right, Index edge)
     m_front[std::size_t(right)].left = left;
 }
 
-/// Flips an edge; the outer half-edges that changed places may be the front's, which names them by their left end.
+/// Flips an edge. The flip moves outer edges to other half-edges; where such an edge belongs to the front, the column
+/// at its left end is told.
 void Sweep::flip_inside(Index e)
 {
     const Index twin = m_mesh.twins[e];
@@ -149,7 +150,8 @@ void Sweep::attach(Index e, Index twin)
     }
 }
 
-/// Puts v below the front; `near` is a front column at or left of where to look.
+/// Adds v below the front. `near` is a column of the front that is not right of v: the search starts there, and ends at
+/// the nearest such column.
 void Sweep::insert(Index v, int& near)
 {
     const int x = m_points[v].x;
@@ -190,8 +192,8 @@ void Sweep::fill_notches(int column)
         continue;
 }
 
-/// Covers the vertex of a column with a triangle when the front is a notch there, and one of less than a right angle
-/// unless `always`.
+/// Covers the vertex of a column with a triangle if the front has a notch there; unless `always`, only if the notch is
+/// narrower than a right angle.
 bool Sweep::fill(int column, bool always)
 {
     const Column at = m_front[std::size_t(column)];
@@ -211,7 +213,7 @@ bool Sweep::fill(int column, bool always)
     return true;
 }
 
-/// Whether the edge e must be flipped (> 0), may be (0), or must not.
+/// Above 0 if the edge e must be flipped, 0 if it may be, below 0 if it must not.
 int Sweep::direction(Index e) const
 {
     const Index twin = m_mesh.twins[e];
@@ -221,8 +223,9 @@ int Sweep::direction(Index e) const
     return in_circle(at(e), at(next_edge(e)), at(previous_edge(e)), at(previous_edge(twin)));
 }
 
-/// Flips edges until those in doubt, and those a flip puts in doubt, have empty circles. While the sweep goes on the
-/// two near ones of a flip are left to flip_remaining(): they hardly ever turn out bad.
+/// Flips edges until those in doubt have empty circles. A flip puts the four edges around it in doubt; two of them only
+/// if `near`. While the sweep goes on, these two are left to flip_remaining(), since they hardly ever have to be
+/// flipped.
 void Sweep::legalise(bool near)
 {
     while (!m_suspects.empty()) {

@@ -24,7 +24,7 @@ using Lanes = hn::CappedTag<float, 8>;
 using Four = hn::FixedTag<float, 4>;
 using V4 = hn::Vec<Four>;
 
-/// Columns of four rows, in each block of four lanes.
+/// Transposes the 4 x 4 numbers that four vectors have in each block of four lanes.
 template<class D, class V = hn::Vec<D>>
 HWY_INLINE void transpose(D d, V& a, V& b, V& c, V& e)
 {
@@ -246,7 +246,7 @@ HWY_INLINE void store_plane(const Quadric& h, int j, float* alpha, float* beta, 
 }
 
 /// Cost of lanes j ... at (x, y): the weighted squared volumes of all channels and the floor. `first` is the form of
-/// the first channel; those of the others are made again, being too many to keep.
+/// the first channel; those of the others are computed again, because there are too many to keep.
 HWY_INLINE hn::Vec<Lanes> cost_at(const EdgeFan& f, const Quadric& first, int j, hn::Vec<Lanes> x, hn::Vec<Lanes> y)
 {
     const Lanes d;
@@ -284,7 +284,7 @@ HWY_INLINE void evaluate_lanes(EdgeFan& f, int j)
     if (f.on_border)
         hold_to_sides(f, g, j, x, y);
 
-    // Infinite without a neighbour, and where the numbers were too large to be told: NaN compares as false.
+    // Infinite where there is no neighbour, and where numbers overflowed: NaN compares as false.
     const auto infinite = hn::Set(d, std::numeric_limits<float>::infinity());
     const auto cost = cost_at(f, h, j, x, y);
     const auto inside = hn::Lt(hn::Iota(d, float(j)), hn::Set(d, float(f.degree)));
@@ -330,8 +330,8 @@ HWY_INLINE int cheapest_edge(const EdgeFan& f)
     return 0;
 }
 
-/// Squared volumes, with the cost's floor, that the vertex's own fan would have at the end of an edge where they are
-/// least.
+/// The error of the vertex's own fan if the vertex moved along one of its edges to the other end: squared volumes plus
+/// the cost's floor, at the end where that is least.
 HWY_INLINE float least_own_error(const EdgeFan& f)
 {
     const Lanes d;
@@ -349,7 +349,7 @@ HWY_INLINE float least_own_error(const EdgeFan& f)
             const auto y = u.y * (hn::Set(d, a.sum_yy) * u.y + two * hn::Set(d, a.sum_yz) * uz);
             error = error + hn::Set(d, f.weights[c]) * hn::Max(x + y + hn::Set(d, f.sums.zz) * uz * uz, hn::Zero(d));
         }
-        // Nothing is known where there is no neighbour, or of numbers too large to be told.
+        // Nothing is known where there is no neighbour or where numbers overflowed.
         const auto known = hn::And(hn::Gt(length, hn::Zero(d)), hn::Lt(error, infinite));
         least = hn::Min(least, hn::IfThenElse(known, error, infinite));
     }

@@ -63,8 +63,8 @@ std::vector<Index> sorted(const FlatArray<CollapseRecord>& records, const Parall
     return by_order;
 }
 
-/// Calls visit(i, record) for the splits i of a batch, coarse to fine. Their order is none in memory: records are
-/// fetched ahead, and then what fetch(record) asks for.
+/// Calls visit(i, record) for the splits i of a batch, coarse to fine. Their records are scattered in memory, so they
+/// are prefetched; some splits later fetch(record) prefetches what visit() will need besides.
 template<class Fetch, class Visit>
 void for_batch(std::size_t batch, const std::vector<Index>& by_order, const FlatArray<CollapseRecord>& records,
                Fetch&& fetch, Visit&& visit)
@@ -83,15 +83,15 @@ void for_batch(std::size_t batch, const std::vector<Index>& by_order, const Flat
     }
 }
 
-/// Asks for the entry of a name; of the ghost, too: a wrong address does no harm.
+/// Prefetches the entry of a name, also for the ghost, which has none: a wrong address does no harm here.
 void prefetch_entry(const std::vector<Index>& number, Index name)
 {
     const std::uintptr_t first = reinterpret_cast<std::uintptr_t>(number.data());
     __builtin_prefetch(reinterpret_cast<const void*>(first + name * sizeof(Index)));
 }
 
-/// One of several parts of the memory of the hierarchy, which is cleared for it: that takes about as long as filling
-/// it.
+/// Allocates one of several parts of the hierarchy's memory. Clearing it takes about as long as filling it, so the
+/// parts are tasks for several threads.
 void allocate(std::size_t part, std::size_t splits, std::size_t vertices, Hierarchy& h, std::vector<Bands>& bands)
 {
     if (part == 0)
@@ -105,8 +105,8 @@ void allocate(std::size_t part, std::size_t splits, std::size_t vertices, Hierar
         bands[part - 3].details.resize(splits);
 }
 
-/// Number of each name: base vertices first, then one per split, coarse to fine. Memory for the hierarchy is got by
-/// the way.
+/// Number of each name: base vertices first, then one per split, coarse to fine. The memory of the hierarchy is
+/// allocated at the same time, by other threads.
 std::vector<Index> number_names(std::size_t names, const CollapseSequence& sequence, const std::vector<Index>& by_order,
                                 const ParallelFor& parallel, Hierarchy& h, std::vector<Bands>& bands)
 {
@@ -206,7 +206,7 @@ Status assemble(int width, int height, const Finest& finest, CollapseSequence&& 
             subtract_predictions(h, finest.guide.channels[task - 1].samples, b[task - 1]);
             return;
         }
-        // Giving memory back takes as long as a channel.
+        // Freeing memory takes as long as the work on a channel, so it is a task, too.
         done = {};
         std::vector<Index>().swap(by_order);
         std::vector<Index>().swap(number);

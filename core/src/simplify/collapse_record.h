@@ -13,8 +13,8 @@
 
 namespace pimg {
 
-/// One edge collapse; records are in the order in which collapses were done. Vertices are identified by names: the number
-/// of the mesh pixel, or of the vertex of the initial mesh, that a vertex started as. s keeps the name of t.
+/// One edge collapse; records are in the order in which collapses were done. Vertices are identified by names: the
+/// number of the mesh pixel, or of the vertex of the initial mesh, that a vertex started as. s keeps the name of t.
 struct CollapseRecord {
     Split split;  ///< s = name of t
     Index u;      ///< name of u
@@ -43,7 +43,7 @@ struct CollapseSequence {
 /// What the finest mesh was made from.
 struct Finest {
     const Guide& guide;          ///< samples per mesh pixel
-    const InitialMesh* initial;  ///< tells where names are; none: names are pixels
+    const InitialMesh* initial;  ///< the mesh whose vertices the names are; null: names are mesh pixels
     const ParallelFor& parallel;
 };
 

@@ -24,12 +24,11 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// Shares of the limit through which a tile approaches it: powers of 4^(1/4).
 constexpr float kSteps[] = { 0.35355339f, 0.5f, 0.70710678f, 1.0f };
 
-// Keys that save evaluations and change no quality (docs/internals.md): what an untouched vertex is filed under, as a
-// share of its own fan's error at the end of an edge; and, as multiples of the cost of a collapse, the key of the
-// vertex it makes and the least one of those around it. Their edges are hardly ever cheaper.
-constexpr float kFirstKey = 0.6f;
-constexpr float kFreshKey = 3.0f;
-constexpr float kNearKey = 1.25f;
+// A vertex is evaluated when the limit reaches its key. These keys are guesses that save evaluations; the edges of a
+// vertex are hardly ever cheaper, so quality does not change (docs/internals.md).
+constexpr float kFirstKey = 0.6f;  ///< of a vertex that was never evaluated: share of least_own_error()
+constexpr float kFreshKey = 3.0f;  ///< of the vertex that a collapse makes: multiple of the collapse's cost
+constexpr float kNearKey = 1.25f;  ///< least key of the vertices around it: multiple of the same cost
 
 /// Appends the numbers of the vertices of a tile whose key is at most `limit`; returns how many.
 HWY_INLINE std::size_t collect(const WorkingMesh& mesh, const Tile& tile, float limit, Index* candidates)
@@ -107,7 +106,7 @@ void TileWorker::start(Index v)
     m_mesh.keys[v] = kFirstKey * least_own_error(m_fan);
 }
 
-/// Stores the sums just added up: what updates left of rounding is gone.
+/// Stores sums that were just added up anew, without the rounding errors that updates leave.
 void TileWorker::keep_sums(Index v)
 {
     m_mesh.nodes[v].sums = m_fan.sums;
@@ -115,7 +114,7 @@ void TileWorker::keep_sums(Index v)
         m_mesh.more_of(v)[c] = m_fan.more[c].sums;
 }
 
-/// Evaluates the edges of v; collapses the cheapest that may be, or files v under its cost.
+/// Evaluates the edges of v. Collapses the cheapest one that may be collapsed, or makes its cost the key of v.
 void TileWorker::visit(Index v, float limit)
 {
     const Neighbours from(m_mesh, m_mesh.rings[v].v.data(), m_mesh.nodes[v].degree);
@@ -145,7 +144,7 @@ void TileWorker::visit(Index v, float limit)
                     collapse(v, j, place, cost);
                     return;
                 }
-                continue;  // legal only at a higher cost: filed under it unless another edge is cheaper
+                continue;  // possible, but only at a higher cost, with which the edge takes part again
             }
         }
         cost = kInfinity;

@@ -105,8 +105,7 @@ void WorkingMesh::number_vertices(int width, int height, const ParallelFor& para
 
 void WorkingMesh::number_vertices(const InitialMesh& initial, std::vector<Index>& number_of)
 {
-    // Vertices are in row order: one reader per row of the current tile row would do, but rows are visited once per
-    // tile, so each row remembers how far it has been read.
+    // Vertices are in row order, tiles are not: a binary search in each row finds the vertices of a tile.
     const std::size_t height = std::size_t(initial.height), width = std::size_t(initial.width);
     std::vector<Index> row_start(height + 1, initial.vertices());
     for (Index v = initial.vertices(); v-- > 0;)
@@ -152,7 +151,7 @@ void WorkingMesh::build_rings(const InitialMesh& initial, const std::vector<Inde
     for (Index e = 0; e < Index(initial.corners.size()); ++e) {
         const Index v = number_of[initial.corners[e]];
         if (nodes[v].degree > 0 && initial.twins[e] != kGhost)
-            continue;  // done already, and this is not the edge a border vertex starts at
+            continue;  // its ring is there already, and it is not a border vertex, whose ring must start at this edge
         Ring& ring = rings[v];
         int degree = 0;
         for (Index edge = e;;) {
@@ -201,7 +200,7 @@ void WorkingMesh::build_rows(const Guide& guide, int first, int last, const std:
                     degree += linked;
                     return;
                 }
-                // The outside shows once, however many steps point there.
+                // The ghost is in the ring once, however many steps lead out of the picture.
                 const Index q = number_at(qx, qy);
                 if (q == kGhost ? find(rings[v], degree, kGhost) < 0 : linked)
                     ring[degree++] = q;

@@ -16,7 +16,8 @@
 
 namespace pimg {
 
-/// Block a vertex's home is in: units of half a finest tile. Fixed for life; says which tile owns it.
+/// The block that a vertex started in, in units of half a finest tile. It never changes, and says which tile owns the
+/// vertex.
 struct Home {
     std::uint16_t x = 0, y = 0;
 };

@@ -22,7 +22,7 @@ constexpr float kStartShare = 0.85f;      ///< of what the sweep removed, in the
 constexpr float kContrastShare = 0.7f;    ///< contrast that stops diffusion, as a share of the strength
 constexpr int kSteps = 6;                 ///< of diffusion guided by the features
 constexpr int kOwnSteps = 3;              ///< and then by what came out of that
-constexpr float kLeastStrength = 1e-17f;  ///< its square is still a number
+constexpr float kLeastStrength = 1e-17f;  ///< its square is still a normal float
 
 /// Share of a deviation that stays: 0 well below the tolerance, 1 well above, a half at it. `square` is the
 /// squared ratio of both.

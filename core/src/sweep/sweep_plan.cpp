@@ -64,7 +64,7 @@ struct StageAndTile {
     }
 };
 
-/// Asks for the entries of a split's vertices.
+/// Prefetches the entries of a split's vertices.
 template<class T>
 void prefetch(const std::vector<T>& of_vertices, const Stencil& k)
 {
@@ -77,7 +77,7 @@ struct LastUse {
     StageAndTile write, read;
 };
 
-/// Says when every split is done, in the hierarchy's order.
+/// Decides in which stage and tile each split is done. Splits come in the hierarchy's order.
 class Scheduler {
 public:
     explicit Scheduler(std::size_t vertices) : m_last_uses(vertices) { }
@@ -89,7 +89,7 @@ public:
         Index stage = std::max(m_last_uses[k.s].write.stage_for(tile), m_last_uses[k.s].read.stage_for(tile));
         for (const Index v : { k.at, k.bt, k.au, k.bu })
             stage = std::max(stage, m_last_uses[v].write.stage_for(tile));
-        // All the rest one after the other: only a hierarchy made for that needs as many stages.
+        // From here on one split is done after the other. Only a hierarchy made to that end needs so many stages.
         if (stage >= StageAndTile::kLastStage) {
             stage = StageAndTile::kLastStage;
             tile = StageAndTile::kFirstTile;
@@ -239,8 +239,8 @@ void SweepPlan::set_base(const std::vector<float>& base, float factor, float* va
 
 void SweepPlan::for_splits(const ParallelFor& parallel, const std::function<void(Level, Level)>& body) const
 {
-    // Tasks are taken in order; who has one whose stage has not begun waits for tasks that others are at. Waking
-    // threads anew for each stage would take longer than a stage.
+    // Threads take tasks in order. One whose task is of a stage that has not begun waits until others have finished
+    // their tasks of the stage before. Waking threads anew for each stage would take longer than a stage.
     std::atomic<std::size_t> next { 0 }, done { 0 };
     std::atomic<bool> failed { false };  // a body has thrown: what waits for it would wait for ever
     const std::size_t workers = std::min<std::size_t>(m_tasks.size(), 64);

@@ -6,7 +6,8 @@
 
 namespace pimg {
 
-/// Copies a picture as float. OpenImageIO 2.4's own copy takes pixels that have gaps between them as if they had none.
+/// Copies a picture as float. OpenImageIO's own copy (2.4) misreads pictures in memory that have gaps between their
+/// pixels.
 bool copy_as_float(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src);
 
 }  // namespace pimg

@@ -12,7 +12,8 @@ std::string format_packed(fmt::string_view pattern, fmt::format_args arguments)
 
 namespace {
 
-/// `text` from `begin` to `end` without the middle if it is longer than `longest`, of which a quarter is kept of its end.
+/// Appends `text` from `begin` to `end`. If that is longer than `longest`, its middle is left out: a quarter of what is
+/// kept is its end.
 void append_shortened(std::string& result, const std::string& text, std::size_t begin, std::size_t end,
                       std::size_t longest)
 {
@@ -27,7 +28,8 @@ void append_shortened(std::string& result, const std::string& text, std::size_t 
 
 std::string one_line(const std::string& message)
 {
-    // The longest path most systems have for one name fits in a word; the list of all keys of the plugin in a message.
+    // Long enough for the longest name of a file (255 bytes on most systems), and for the list of all keys of the
+    // plugin.
     constexpr std::size_t kLongestWord = 300, kLongest = 1500;
     std::string words;
     for (std::size_t at = 0; at < message.size();) {

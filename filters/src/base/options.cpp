@@ -13,7 +13,7 @@ namespace pimg {
 namespace {
 
 constexpr double kAnyInt = std::numeric_limits<int>::max();
-constexpr double kAnyFloat = 3.4e38;  ///< the largest float, in two digits
+constexpr double kAnyFloat = 3.4e38;  ///< the largest float, to two digits
 
 std::string quoted(std::string_view text)
 {

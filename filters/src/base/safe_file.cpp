@@ -94,7 +94,7 @@ bool SafeFile::has_room()
         return true;
     if (::fstat(m_fd, &now) != 0)
         return fail(errno);
-    // A write that was cut off has filled all blocks but what is less than one.
+    // A write that a full disk has cut off leaves less than one block free.
     constexpr off_t kRoom = 1 << 12;
     const int code = ::posix_fallocate(m_fd, now.st_size, kRoom);
     if (::ftruncate(m_fd, now.st_size) != 0)

@@ -24,9 +24,10 @@ namespace pimg {
 
 namespace {
 
-/// Helpers that come too late stay in the pool's queue until one of its threads finds the time to throw them away. All
-/// its threads may be busy for long; so that the queue does not grow without end meanwhile, there is this limit. It is
-/// far above what loops that follow each other leave behind (a few per loop), and costs about 50 kB at most.
+/// A loop asks the pool for helpers. Those that start after the loop has ended have nothing to do, but stay in the
+/// pool's queue until one of its threads takes them out, which may be long if all of them are busy. No helpers are
+/// asked for while the queue is longer than this. It is far above what loops that follow each other leave behind (a few
+/// per loop), and costs about 50 kB at most.
 constexpr std::size_t kLongestQueue = 256;
 
 /// One loop, shared by the calling thread and the pool threads that help it. A helper may be started by the pool long

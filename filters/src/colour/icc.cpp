@@ -12,7 +12,8 @@ namespace pimg {
 
 namespace {
 
-/// A profile's numbers are rounded to 16 bits, and the many editions of sRGB differ a little: half a code of 8 bits.
+/// Curves (half of an 8-bit code) and primaries that differ by less than this count as the same: the numbers of a
+/// profile are rounded to 16 bits, and there are many editions of sRGB.
 constexpr double kSameCurve = 2e-3, kSameSpace = 5e-3;
 
 using Profile = std::unique_ptr<void, decltype(&cmsCloseProfile)>;
@@ -23,7 +24,7 @@ const T* tag(const Profile& profile, cmsTagSignature signature)
     return static_cast<const T*>(cmsReadTag(profile.get(), signature));
 }
 
-/// xy of the red, green and blue of a profile, and of their sum.
+/// CIE xy of a profile's red, green and blue, and of their sum, which is white.
 bool read_primaries(const Profile& profile, Chromaticities& primaries)
 {
     cmsCIEXYZ white { 0, 0, 0 };

@@ -13,15 +13,16 @@ namespace pimg {
 
 /// An RGB space as a matrix and a curve for each channel.
 struct IccSpace {
-    static constexpr std::size_t kSamples = 4096;  ///< a curve's; straight lines between them are exact to 16 bits
+    static constexpr std::size_t kSamples = 4096;  ///< of a curve, with straight lines between them: exact to 16 bits
 
     Chromaticities primaries {};               ///< adapted to D50, as profiles hold them
     std::array<std::vector<float>, 3> curves;  ///< linear light at kSamples equal steps from 0 to 1
-    bool linear = false, srgb = false;         ///< the curves are straight; it is sRGB
+    bool linear = false, srgb = false;         ///< whether the curves are straight; whether the space is sRGB
     std::string name;                          ///< as the profile describes itself
 };
 
-/// False for what is no profile of RGB or grey pictures, or one whose colours are a table instead of a matrix.
+/// False if the data are no profile of RGB or grey pictures, or if its colours are given by a table instead of a
+/// matrix.
 bool read_icc(const void* profile, std::size_t size, IccSpace& space);
 
 }  // namespace pimg

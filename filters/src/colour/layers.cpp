@@ -140,7 +140,7 @@ bool find_named(const OIIO::ImageSpec& spec, const std::vector<Layer>& layers, c
     return false;
 }
 
-/// What the rules for "" choose; null if several may be meant.
+/// The layer that find_picture() chooses for ""; null if several may be meant.
 const Layer* choose(const std::vector<Layer>& layers)
 {
     std::vector<const Layer*> complete;
@@ -200,7 +200,7 @@ bool holds_picture(const OIIO::ImageSpec& part, const std::string& layer)
     PictureChannels picture;
     std::string error;
     if (!find_picture(part, layer, picture, error))
-        return layer.empty();  // several may be the picture: the user is to say which
+        return layer.empty();  // several layers may be the picture, so the user must name one
     const auto begin = picture.channels.begin();
     return std::any_of(begin, begin + picture.count, [&](int channel) { return !holds_data(part, channel); });
 }

@@ -8,8 +8,8 @@
 
 namespace pimg {
 
-/// A transfer curve, ((v + offset) / (1 + offset))^gamma with a linear start or, for offset 0, a plain power; and
-/// primaries.
+/// A transfer curve and primaries. The curve is ((v + offset) / (1 + offset))^gamma with a linear start, or a plain
+/// power if offset is 0.
 struct NamedSpace {
     double gamma = 1.0, offset = 0.0;
     Chromaticities primaries = kRec709;

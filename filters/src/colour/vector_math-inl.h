@@ -65,7 +65,8 @@ HWY_INLINE Vector power(Vector x, float exponent)
     return hn::IfThenElseZero(x > hn::Zero(d), exp2(log2(x) * hn::Set(d, exponent)));
 }
 
-/// Calls body(i, n) for vectors that start at i and of which n lanes count: all but in the last.
+/// Calls body(i, n) for each vector of numbers. It starts at number i, and n of its lanes count: all lanes except in
+/// the last vector.
 template<class Body>
 HWY_INLINE void for_vectors(std::size_t count, Body&& body)
 {
@@ -74,7 +75,7 @@ HWY_INLINE void for_vectors(std::size_t count, Body&& body)
         body(i, count - i < step ? count - i : step);
 }
 
-/// The first n of the numbers at `from`, and 0.
+/// The first n of the numbers at `from`; the other lanes are 0.
 HWY_INLINE Vector load(const float* from, std::size_t n)
 {
     const Lanes d;

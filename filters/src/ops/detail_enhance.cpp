@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Detail enhancement: what the low-pass of a strength removes is amplified, or as in the paper (section 4.1) the
-// details of a range of splits.
+// Detail enhancement. Either amplifies what the low-pass of a given strength removes, or, as in the paper (section
+// 4.1), the details of a range of splits.
 #include <pimg/detail/parallel.h>
 #include <pimg/imagebufalgo.h>
 
@@ -27,7 +27,7 @@ Level place(const Hierarchy& hierarchy, double position)
     return Level(std::lround(std::min(splits, double(hierarchy.levels()))));
 }
 
-/// Where a curve passes: from this split on the gain runs from here to the next point.
+/// A point of a curve: from this split on, the gain changes linearly to that of the next point.
 struct CurvePoint {
     Level split;
     float gain;
@@ -62,8 +62,8 @@ bool parse_curve(const Hierarchy& hierarchy, const std::string& text, Curve& cur
     return true;
 }
 
-/// What the curve adds to a gain of 1 at every split, and last for the residual, which comes after them: linear between
-/// its points, constant outside. Of points at one place the last counts from there on.
+/// What the curve adds to a gain of 1, for every split and, as the last entry, for the residual. The curve is linear
+/// between its points and constant outside. Of several points at one place the last counts from there on.
 std::vector<float> gains_less_one(const Curve& curve, Level levels)
 {
     std::vector<float> more(levels + 1, curve.front().gain - 1.0f);
@@ -78,7 +78,7 @@ std::vector<float> gains_less_one(const Curve& curve, Level levels)
     return more;
 }
 
-/// The curve of one gain from a place to another.
+/// A curve that is `gain` between two places and 1 elsewhere.
 Curve step_curve(Level from, Level to, float gain, Level levels)
 {
     if (from > to)
@@ -89,8 +89,8 @@ Curve step_curve(Level from, Level to, float gain, Level levels)
     return curve;
 }
 
-/// One channel with its details amplified. What that adds is added to the picture rather than synthesised with it,
-/// so that a gain of 1 changes no bit.
+/// One channel with its details amplified. Only what the gains add is synthesised, and then added to the picture, so
+/// that a gain of 1 changes no bit.
 std::vector<float> enhanced(const ProgressiveImage::Data& data, int channel, const Bands& bands, int exponent,
                             const std::vector<float>& more)
 {
@@ -152,7 +152,7 @@ bool by_strength(ProgressiveImage::Data& data, const DetailEnhanceOptions& optio
     return true;
 }
 
-/// What details of twice their size leave of the light of a scene is at least a quarter.
+/// Keeps at least a quarter of the light of the source at every pixel, however much its details are amplified.
 void shade(const ProgressiveImage::Data& data, Channels& results)
 {
     for (std::size_t c = 0; c < results.size(); ++c) {

@@ -10,9 +10,9 @@ namespace pimg {
 /// Display luminance of middle grey.
 constexpr float kMiddleGrey = 0.18f;
 
-/// The tone curve of a display, on luminances. The toe takes the haze from shadows; it is y^2 / (y + toe), a subtraction of
-/// `toe` that never reaches 0. The shoulder rolls highlights off: the identity up to a knee, then a smooth rise that
-/// reaches 1 at `white`.
+/// The tone curve of a display, on luminances. The toe takes the haze from shadows; it is y^2 / (y + toe), a
+/// subtraction of `toe` that never reaches 0. The shoulder rolls highlights off: the identity up to a knee, then a
+/// smooth rise that reaches 1 at `white`.
 struct ToneCurve {
     static constexpr float kKnee = 0.3f;
     float toe, white, inverse_square;
@@ -20,23 +20,23 @@ struct ToneCurve {
     ToneCurve(float toe_luminance, float reaches_one_at);  ///< 0 or more; 1 or more
 };
 
-/// How pixels get another luminance and keep their colour.
+/// How pixels are given another luminance while they keep their colour.
 struct Recolour {
     std::array<float, 3> weights;  ///< of luminance: see Colour::luminance()
     float slope, offset;           ///< log2 of the factor = slope * compressed - guide / kUnitsPerStop + offset
     float saturation;              ///< exponent on the ratio of a channel to luminance
-    bool fit;                      ///< to the display's range: tone curve, and towards grey until in gamut
+    bool fit;                      ///< whether results fit a display: tone curve, colours moved into its gamut
     ToneCurve curve;
     float read, photon;  ///< variance of the luminance of noise: colour fades where light is no more than that
 };
 
-/// Recolours `count` linear RGB triples in place, from their compressed and their scene's log luminances. Colours that the
-/// display cannot show move towards the grey of their luminance along a line of constant hue in Oklab (B. Ottosson, "A
-/// perceptual color space for image processing", 2020), the sooner the nearer they are to its limits, so that no edge
-/// shows where a channel reaches its maximum.
+/// Recolours `count` linear RGB triples in place. `compressed` and `guide` are their log luminances after compression
+/// and before. Colours that the display cannot show move towards the grey of their luminance, along a line of constant
+/// hue in Oklab (B. Ottosson, "A perceptual color space for image processing", 2020). Colours near the limits of the
+/// display move a little, too, so that no edge shows where a channel reaches its maximum.
 void recolour(const Recolour& how, const float* compressed, const float* guide, std::size_t count, float* rgb);
 
-/// From log2 of display luminances, before the tone curve, to their cube roots behind it, which are lightness but for
+/// Replaces log2 of display luminances by the cube roots of what the tone curve makes of them: lightness, apart from
 /// constants.
 void lightness_in_place(const ToneCurve& curve, float* stops, std::size_t count);
 

@@ -15,7 +15,7 @@ namespace pimg {
 /// others all from dmax, so that pictures compressed with one dmax are treated alike.
 void find_compression(float range, HdrCompressOptions& options);
 
-/// The dynamic range, in stops, that dmax stands for.
+/// The dynamic range, in stops, for which find_compression() would find this dmax.
 float range_of(const HdrCompressOptions& options);
 
 /// A cell of the overview: log2 of its compressed luminance, and how much it counts.
@@ -29,8 +29,8 @@ void find_exposure(CompressedCells cells, float scene_key, float dark, HdrCompre
 /// much in snow. 0.5 if there is nothing to see.
 float find_scene_key(const Overview& overview);
 
-/// The tone curve of resolved options. Its toe brings the darkest part of the base, which the compressed range tells, down
-/// to black, as far as that leaves the contrast of the others natural; its shoulder brings `white` to 1.
+/// The tone curve of resolved options. Its toe brings the darkest part of the base, which the compressed range tells,
+/// down to black, as far as that leaves the contrast of the others natural; its shoulder brings `white` to 1.
 ToneCurve tone_curve(const HdrCompressOptions& options);
 
 }  // namespace pimg

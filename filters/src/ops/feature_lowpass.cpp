@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Feature-preserving low-pass: by strength, or as in the paper (section 4.1), where the details of all but the first
-// splits are left out, and the residual, the finest band, unless nothing is.
+// Feature-preserving low-pass. Either by a strength, or as in the paper (section 4.1): the details of all but the first
+// splits are left out, and with them the residual, which is the finest band.
 #include <pimg/detail/format.h>
 #include <pimg/detail/parallel.h>
 #include <pimg/imagebufalgo.h>

@@ -16,10 +16,10 @@ PlannedBands::PlannedBands(SweepPlan&& made, const Bands& bands, const ParallelF
 
 namespace {
 
-/// Contrasts within the first of these many standard deviations of the noise are noise, and those beyond the second
-/// clearly are not. Measured on noise alone, the contrast of half of the splits is below 3, of nine in ten below 4.9 and of
-/// 99 in 100 below 9.8, and that hardly changes from the finest level to where vertices stand for 16 pixels: a height
-/// field keeps the peaks of its noise. From there on it falls, to half at some hundred pixels.
+/// In standard deviations of the noise: contrasts up to kNoise are noise, and those from kClearlyMore on are not.
+/// Measured on pictures of noise alone, half of the splits have a contrast below 3, nine in ten below 4.9, and 99 in
+/// 100 below 9.8. That hardly changes from the finest level to levels whose vertices stand for kPeaks pixels, because a
+/// height field keeps the peaks of its noise. From there on it falls, to half at some hundred pixels.
 constexpr float kNoise = 3.7f, kClearlyMore = 8.0f, kPeaks = 16.0f;
 
 /// The share of the noise of a pixel that is in the vertices of each split, by the number of pixels that the smaller of
@@ -52,7 +52,7 @@ Envelope contrast_envelope(const PlannedBands& bands, const EnvelopeOptions& opt
     if (!options.noise.none())
         envelope.visibility = noise_shares(plan);
     std::vector<float> values(plan.places());
-    std::vector<float> contrast(plan.places(), options.range);  // of the vertices, as far as they exist
+    std::vector<float> contrast(plan.places(), options.range);  // of the vertices that exist so far
     plan.set_base(bands.base, 1.0f, values.data());
     plan.for_splits(parallel, [&](Level first, Level last) {
         plan.sweep(first, last, values.data(), [&](Level i) {
@@ -82,7 +82,7 @@ void compress(const PlannedBands& bands, const DetailGain& gain, const Envelope*
         envelope != nullptr && !envelope->visibility.empty() ? envelope->visibility.data() : nullptr;
     bands.plan.set_base(bands.base, gain.s0, values);
     bands.plan.for_splits(parallel, [&](Level first, Level last) {
-        constexpr Level kBatch = 512;  // of compressed details, between the vectors and the sweep
+        constexpr Level kBatch = 512;  // details that are compressed together, before the sweep takes them
         Detail compressed[kBatch];
         for (Level begin = first, end; begin < last; begin = end) {
             end = std::min(begin + kBatch, last);
@@ -98,7 +98,7 @@ void compress_residual(const Hierarchy& hierarchy, const Bands& bands, const Det
 {
     if (bands.residual.empty())
         return;
-    // At the vertices the residual is rounding only.
+    // At pixels that are vertices the residual is only rounding.
     constexpr std::size_t kBatch = 256;
     const std::vector<PixelStencil>& between = hierarchy.between;
     for (std::size_t first = 0; first < between.size(); first += kBatch) {

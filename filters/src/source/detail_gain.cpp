@@ -60,7 +60,7 @@ void gains_of(const DetailGain& parameters, float* contrasts, std::size_t count)
     for_vectors(count, [&](std::size_t i, std::size_t n) { store(gain(load(contrasts + i, n)), n, contrasts + i); });
 }
 
-/// Both numbers of a detail at once: a vector of gains goes with two of details.
+/// Multiplies both numbers of a detail by the gain of its contrast: one vector of gains is for two vectors of details.
 void compress_by_contrast(const DetailGain& parameters, const float* details, const float* contrasts,
                           const float* visibilities, std::size_t count, float* compressed)
 {

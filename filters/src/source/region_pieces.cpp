@@ -16,11 +16,11 @@ namespace {
 /// give better regions.
 constexpr double kPieceFraction = 0.125;
 
-/// Largest variance of CIELAB within such a piece. The guide need not have seen what makes it vary; so its
-/// pixels are taken one by one.
+/// Largest variance of CIELAB within such a piece. A piece may vary more, since a guide does not show every difference
+/// in colour; then its pixels are taken one by one.
 constexpr double kMostVariance = 25.0;
 
-/// Regions that are still chosen well from pieces: a quarter of their number. More need pixels.
+/// Pieces needed for each region. If there are fewer, pixels are merged instead of pieces.
 constexpr std::size_t kPiecesPerRegion = 4;
 
 std::vector<bool> is_mixed(const std::vector<Index>& labels, Index count, const Channels& lab)
@@ -48,7 +48,7 @@ std::vector<bool> is_mixed(const std::vector<Index>& labels, Index count, const 
     return mixed;
 }
 
-/// Dual pieces of one colour, and the pixels of those that are not.
+/// Labels dual pieces of one colour, and each pixel of the other pieces.
 bool uniform_pieces(const Hierarchy& hierarchy, const Channels& lab, std::vector<Index>& labels, std::string& error)
 {
     DualPieces pieces;

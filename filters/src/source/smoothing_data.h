@@ -26,7 +26,8 @@ private:
     float m_unit = 1.0f;
 };
 
-/// Samples of the source are those here times 2^exponent, or from_log() of those here.
+/// The colour channels in the form that core smooths. The samples of the picture are those here times 2^exponent, or
+/// from_log() of those here.
 struct SmoothingData {
     SmoothingSource source;
     bool log = false;

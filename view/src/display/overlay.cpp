@@ -83,7 +83,7 @@ bool piece_at(const PieceMap& map, int x, int y, Piece& piece)
     for (const Index pixel : run) {
         const int u = int(pixel) % width, v = int(pixel) / width;
         if (label(u, v) != piece.vertex)
-            continue;  // given away since
+            continue;  // belongs to another piece by now
         ++piece.pixels;
         const float l = float(u * factor), t = float(v * factor), r = l + float(factor), b = t + float(factor);
         for (const auto& [du, dv, line] :
@@ -92,7 +92,7 @@ bool piece_at(const PieceMap& map, int x, int y, Piece& piece)
             if (label(u + du, v + dv) != piece.vertex)
                 piece.outline.push_back(line);
     }
-    constexpr std::size_t kAncestors = 8;  // as many lines as one reads
+    constexpr std::size_t kAncestors = 8;  // lines of text; nobody reads more
     const pimg::Hierarchy& hierarchy = map.image->hierarchy();
     Index v = piece.vertex;
     while (v >= hierarchy.base_vertices() && piece.history.size() < kAncestors) {

@@ -21,10 +21,10 @@ struct Line {
 struct MeshLines {
     static constexpr std::size_t kMost = 30000;  ///< more are a solid surface in a window; an estimate
 
-    std::shared_ptr<const pimg::ProgressiveImage> image;  ///< it is of
+    std::shared_ptr<const pimg::ProgressiveImage> image;  ///< the image that the mesh belongs to
     pimg::Index vertices = 0;
     Region region;
-    bool too_many = false;  ///< more than kMost: there are none then
+    bool too_many = false;  ///< there are more than kMost, and none are given
     std::vector<Line> lines;
 };
 

@@ -8,7 +8,7 @@ namespace pimgview {
 
 namespace {
 
-/// Whole screen pixels on both sides of the middle.
+/// Where the picture begins on one axis, rounded to whole screen pixels.
 double place(double origin, double extent, double share, double size)
 {
     return origin + std::round(extent / 2.0 - share * size);

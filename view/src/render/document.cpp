@@ -29,7 +29,8 @@ double seconds_now()
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Means over blocks; the last row and column of blocks may be narrower. Numbers that are none do not count.
+/// One row of means over blocks of factor x factor pixels; the last row and column of blocks may be narrower. NaN does
+/// not count.
 void reduce_row(const std::vector<float>& source, const ImageSpec& from, int factor, int y, float* row, int width)
 {
     const int channels = from.nchannels;
@@ -226,7 +227,7 @@ void Document::build(int version, const std::atomic<bool>& stop)
 {
     const double begun = seconds_now();
     const std::size_t count = state().rungs.size();
-    // The smallest first, so that there is something to turn at once.
+    // The smallest first, so that sliders can be moved soon.
     for (std::size_t i = count; i-- > 0;) {
         if (stop || !current(version) || !build_rung(version, i, stop))
             return;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A file being looked at: its pixels, smaller copies of them, and the progressive images of all, built in the background.
+// A file being looked at: its pixels, smaller copies of them, and the progressive images of all, built in the
+// background.
 #pragma once
 
 #include <functional>
@@ -58,7 +59,7 @@ public:
 
     DocumentState state() const;
 
-    /// Ends what is being done, as soon as it notices.
+    /// Asks the running work to stop; it does so when it next looks.
     void cancel() { m_worker.cancel(); }
     bool idle() const { return m_worker.idle(); }
 
@@ -74,14 +75,14 @@ private:
     std::function<void()> m_changed;
     mutable std::mutex m_mutex;
     DocumentState m_state;
-    Worker m_worker;  ///< last: it ends before what it works on goes
+    Worker m_worker;  ///< last, so that it ends before what it works on is destroyed
 };
 
 /// The picture with means of `factor` x `factor` pixels, in its own type, windows and metadata but for their size.
 OIIO::ImageBuf reduced(const OIIO::ImageBuf& pixels, int factor);
 
-/// The factors of the smaller copies of a picture: about as large as a window, and about as large as can be built within
-/// about a third of a second.
+/// The factors of the smaller copies of a picture: about as large as a window, and about as large as can be built
+/// within about a third of a second.
 std::vector<int> smaller_factors(int width, int height);
 
 /// Bytes of memory that building a picture takes at most.

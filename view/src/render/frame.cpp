@@ -17,7 +17,7 @@ namespace {
 using OIIO::ImageBuf;
 using OIIO::ImageSpec;
 
-/// Rows and columns of a rendering's own pixels.
+/// A rectangle in pixels of a rendering.
 struct Window {
     int x0, y0, x1, y1;
     int width() const { return x1 - x0; }
@@ -50,7 +50,7 @@ public:
     const float* at(int x, int y) const { return m_first + std::size_t(y) * m_stride + std::size_t(x) * m_channels; }
 
 private:
-    /// Labels are whole numbers, not shares of the largest.
+    /// Copies labels as the whole numbers that they are; OpenImageIO would scale them to 0..1.
     void copy_numbers(const std::uint32_t* numbers, const ImageSpec& spec, const Window& window)
     {
         float* to = m_copy.data();

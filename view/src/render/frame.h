@@ -18,7 +18,7 @@ struct Region {
     bool empty() const { return x1 <= x0 || y1 <= y0; }
 };
 
-/// How numbers become linear light, for a shader to repeat.
+/// How the numbers of a frame become linear light, which is up to the shader.
 struct Light {
     bool encoded = false;            ///< sRGB, to be decoded
     std::string space;               ///< name in the configuration of $OCIO; empty: none

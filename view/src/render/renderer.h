@@ -45,8 +45,8 @@ private:
     int m_version = -1;
 };
 
-/// The rung whose pixels are at most `scale` pixels of the file wide and that is built: the coarsest such, else the finest
-/// that is built. Null if there is none.
+/// Of the rungs that are built, the coarsest whose pixels are at most `scale` pixels of the file wide; if there is none
+/// such, the finest that is built. Null if none is built.
 const Rung* built_rung(const DocumentState& document, double scale);
 
 /// Writes what the stack makes of the document, which must be built, as pimgtool would: its formats, types and colour

@@ -10,8 +10,8 @@
 
 namespace pimgview {
 
-/// One job runs and one waits; a newer one takes the place of the one that waits. Whoever drags a slider asks for more
-/// pictures than can be made, and only the last counts.
+/// One job runs, and at most one waits; a newer job replaces the one that waits. A user who drags a slider asks for
+/// more pictures than can be made, and only the last of them matters.
 class Worker {
 public:
     /// Jobs look at `stop` now and then, and end early when it is set. They do not throw.

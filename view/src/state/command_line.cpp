@@ -13,7 +13,7 @@ namespace {
 using pimg::format;
 using pimg::OptionTexts;
 
-/// Between two marks, with `inside` for each mark of the text itself.
+/// The text between two quotation marks; `inside` replaces each mark that the text itself contains.
 std::string quoted(const std::string& text, char mark, const char* inside)
 {
     std::string result(1, mark);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is seen as the command line of pimgtool, and command lines as what is to be seen.
+// The command line of pimgtool that gives the present result, and the reverse: stack and look from a command line.
 #pragma once
 
 #include <string>
@@ -20,11 +20,11 @@ std::string shell_line(const std::string& file, const FilterStack& stack, const 
 /// The look as an argument of pimgview: --view:key=value; empty if all is as by default.
 std::string look_argument(const LookOptions& look);
 
-/// Takes a line apart as a shell does, at spaces outside of quotes; a backslash keeps the next letter. False with a line
-/// in `error` for a quote without its end.
+/// Takes a line apart as a shell does, at spaces outside of quotes; a backslash keeps the next letter. False with a
+/// line in `error` for a quote without its end.
 bool split_words(const std::string& line, std::vector<std::string>& words, std::string& error);
 
-/// What a script says. Of `stack` and `look` it is told whether it says anything of them.
+/// What a script says, and whether it says anything of `stack` and of `look`.
 struct Script {
     std::vector<std::string> files;
     FilterStack stack;

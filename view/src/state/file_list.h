@@ -7,8 +7,8 @@
 
 namespace pimgview {
 
-/// Names of files for what was given: a pattern with # or %04d stands for the frames there are, in order, a folder for its
-/// pictures by name, and everything else for itself.
+/// The names of files that were meant: a pattern with # or %04d stands for all frames that exist, in order; a folder
+/// for its pictures, by name; everything else for itself.
 std::vector<std::string> expand_files(const std::vector<std::string>& given);
 
 /// Folders first, then pictures, by name; what begins with a dot is left out. Names of folders end in a slash.

@@ -89,7 +89,8 @@ OptionTexts for_reduced(const StackItem& item, int factor)
 
 SliderRange slider_range(const OptionInfo& option)
 {
-    // Ranges that end at what a number can hold are no use to a slider: ten times the default then, at least 100.
+    // A slider cannot use a range that ends at the largest number. It then ends at ten times the default, or at least
+    // at 100.
     constexpr double kWidest = 1000.0, kTimesDefault = 10.0, kLeastOpen = 100.0;
     const double preset = option.default_value.empty() ? 0.0 : OIIO::Strutil::stod(option.default_value);
     SliderRange range { option.min, option.max, false };

@@ -37,17 +37,17 @@ struct FilterStack {
 std::string value_of(const pimg::OptionTexts& texts, const pimg::OptionInfo& option);
 bool is_given(const pimg::OptionTexts& texts, const pimg::OptionInfo& option);
 
-/// Gives an option a value; its default, or nothing for one that need not be set, takes it away.
+/// Sets an option. If `value` is the default, or empty for an option that need not be set, the option is removed.
 void set_value(pimg::OptionTexts& texts, const pimg::OptionInfo& option, const std::string& value);
 
-/// set_value(), and if the filter then refuses its options because another of them says the same thing, that one goes.
+/// As above. If the filter then refuses its options because another option says the same thing, that one is removed.
 void set_value(StackItem& item, const pimg::OptionInfo& option, const std::string& value);
 
 /// The options of a filter for a picture that is `factor` times smaller: lengths in pixels shrink with it, within their
 /// ranges.
 pimg::OptionTexts for_reduced(const StackItem& item, int factor);
 
-/// The smallest and largest value a slider should offer, and whether equal ways of it should be equal ratios.
+/// The smallest and largest value that a slider should offer, and whether it should be logarithmic.
 struct SliderRange {
     double low = 0.0, high = 1.0;
     bool logarithmic = false;

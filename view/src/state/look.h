@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a picture is looked at, which changes nothing of it. A table like those of the filters: the panel, --view and the
-// help are made from it.
+// How a picture is looked at; nothing here changes the result. There is a table like those of the filters, from which
+// the panel, --view and the help are made.
 #pragma once
 
 #include <string>

@@ -16,7 +16,7 @@ namespace {
 
 namespace Filesystem = OIIO::Filesystem;
 
-/// By the specification a folder that is not absolute counts as not given.
+/// The folder that a variable names. By the specification a name that is not absolute counts as not set.
 std::string base_folder(const char* variable, const char* in_home)
 {
     const char* given = std::getenv(variable);

@@ -38,7 +38,7 @@ out vec2 place;
 void main() { gl_Position = vec4(corner.xy, 0.0, 1.0); place = corner.zw; }
 )";
 
-// NaN fails every comparison, which tells it from all numbers without isnan(), whose answer drivers optimise away.
+// NaN is found by comparisons, all of which it fails: drivers optimise isnan() away.
 const char kMain[] = R"(
 uniform sampler2D result, source;
 uniform int show;
@@ -109,7 +109,8 @@ ocio::ConstTransformRcPtr matrix(const std::array<float, 9>& rows)
     return transform;
 }
 
-/// From numbers to linear light: Rec. 709's without a display, else the scene-linear space of the configuration.
+/// From numbers to linear light: with a display the scene-linear space of the configuration, otherwise that of Rec.
+/// 709.
 ocio::ConstProcessorRcPtr to_linear(const ocio::ConstConfigRcPtr& config, const Light& light, bool managed)
 {
     const auto group = ocio::GroupTransform::Create();

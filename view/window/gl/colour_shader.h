@@ -26,9 +26,9 @@ public:
     ColourShader(const ColourShader&) = delete;
     ColourShader& operator=(const ColourShader&) = delete;
 
-    /// Makes the program for pictures whose numbers mean this, unless it is the present one, and makes it the one that draws.
-    /// Textures 0 and 1 are result and source. False, with one line in `error`, if there is no such display or the driver
-    /// refuses the program.
+    /// Makes the shader program for pictures with these meanings of their numbers, unless it is the present program,
+    /// and selects it for drawing. Textures 0 and 1 are result and source. False, with one line in `error`, if there is
+    /// no such display or the driver refuses the program.
     bool use(const Light& result, const Light& source, const LookOptions& look, std::string& error);
 
     /// What changes from draw to draw. `split_x` is in pixels of the frame buffer.

@@ -86,7 +86,7 @@ void TiledTexture::draw(const Placement& placement) const
         return float(
             1.0 - (placement.top + (m_region.y0 + texel * double(m_step)) * placement.zoom) * 2.0 / placement.height);
     };
-    // Said outright: at one to one a driver may take either filter, and a sun bleeds into its neighbour by a rounded weight.
+    // Nearest from one to one on: with linear filtering a rounded weight would let a sun bleed into its neighbour.
     const GLint filter = m_step * placement.zoom > 0.999 ? GL_NEAREST : GL_LINEAR;
     for (const Tile& tile : m_tiles) {
         const float x0 = clip_x(tile.x), x1 = clip_x(tile.x + tile.width);

@@ -10,9 +10,9 @@
 
 namespace pimg {
 
-/// How values flow. Along an edge of the grid with difference d in the guide, being the root of the mean square over
-/// its channels, the conductance is
+/// How values flow. The conductance of an edge of the grid is
 ///     1 / (1 + (d / contrast)^2)^2
+/// where d is the difference of the guide along the edge: the root of the mean square over its channels.
 struct DiffusionOptions {
     int width = 0, height = 0;  ///< of all channels
     float contrast = 0.1f;      ///< difference across which a quarter of the flow is left; > 0, in units of the guide
@@ -21,7 +21,8 @@ struct DiffusionOptions {
 };
 
 /// Diffuses every channel of `picture`, which may be the guide itself; the conductances are those of the guide as
-/// given. Mean-preserving, and never leaves the range of the picture by more than rounding after the last step.
+/// given. The mean is preserved. After the last step no value is outside the range of the picture by more than
+/// rounding.
 void diffuse(const Channels& guide, const DiffusionOptions& options, const Channels& picture, Channels& result);
 
 }  // namespace pimg

@@ -14,7 +14,7 @@ struct StarFace {
 };
 
 /// The first face that holds a point p, looking from place `start` of the ring on; if none does, as in a damaged star,
-/// the first face there is. side(i) returns twice the area of (s, ring vertex i, p); of the ghost anything.
+/// the first face there is. side(i) returns twice the area of (s, ring vertex i, p), and any number for the ghost.
 template<class Side>
 StarFace face_that_holds(int degree, const Index* ring, int start, Side&& side)
 {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An order of the splits made for sweeping: the same arithmetic as sweep(), near in memory and for many threads.
 //
-// The values of a sweep lie as the pixels do, in square tiles, and splits are done tile by tile. A split that needs
-// what another tile makes waits for the next stage; so the tiles of one stage do not depend on each other. The first
-// splits, whose faces are larger than tiles, are a stage of their own.
+// The values of a sweep are stored tile by tile, a tile being a square of pixels, and splits are done tile by tile. A
+// split that needs a value made in another tile waits for the next stage; so the tiles of one stage do not depend on
+// each other. The first splits, whose faces are larger than tiles, are a stage of their own.
 #pragma once
 
 #include <cstddef>

@@ -44,7 +44,7 @@ PlainMesh::PlainMesh(const Guide& guide) : width(guide.width), height(guide.heig
             int degree = 0;
             for (int k = 0; k < 8; ++k) {
                 const int qx = x + kStepX[k], qy = y + kStepY[k];
-                Index q = kGhost;  // the outside shows once, however many steps point there
+                Index q = kGhost;  // is in the ring once, however many steps lead out of the picture
                 if (qx >= 0 && qy >= 0 && qx < width && qy < height) {
                     if (k % 2 == 1
                         && is_falling(guide, pixel(std::min(x, qx), std::min(y, qy))) != (kStepX[k] == kStepY[k]))
@@ -123,7 +123,8 @@ bool Collapser::run(double guard, const Progress& progress)
         m_queue.pop();
         if (m_stamps[next.v] != next.stamp || m_mesh.degrees[next.v] == 0)
             continue;
-        // The star reaches one ring further than what had v looked at again.
+        // Collapses since then had v planned anew only if they were in its ring, but its costs depend on the ring
+        // beyond.
         const Plan now = plan(next.v);
         if (now.cost > next.cost) {
             enqueue(next.v, now);

@@ -11,7 +11,7 @@ namespace {
 
 using OIIO::TypeDesc;
 
-/// T is made from a Via.
+/// Writes labels as samples of type T. Each is converted to Via first, and then to T.
 template<class T, class Via = T>
 bool write_as(OIIO::ImageBuf& dst, OIIO::ROI roi, const Index* labels, std::size_t stride)
 {

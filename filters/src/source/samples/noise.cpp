@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kBlock = 16;                ///< pixels on a side of the parts whose noise is estimated
 constexpr std::size_t kBins = 12;         ///< groups of equally light blocks
-constexpr std::size_t kLeastBlocks = 8;   ///< in a group: fewer say nothing
+constexpr std::size_t kLeastBlocks = 8;   ///< in a group: fewer do not tell its noise
 constexpr double kSmoothest = 0.1;        ///< quantile of the deviations in a group that counts
 constexpr double kMadOfNormal = 0.67449;  ///< median absolute value of a normal variable of standard deviation 1
 constexpr float kAboveBlack = 0.01f;      ///< guide units
@@ -25,8 +25,9 @@ struct Block {
     double mean, variance;
 };
 
-/// The mean luminance of a block and the variance of its noise, from the second differences of second differences, which
-/// vanish on planes and whose weights have the norm 6 (Immerkaer 1996). None for blocks that are partly black.
+/// Finds the mean luminance of a block and the variance of its noise. The noise is estimated from the second difference
+/// along y of the second differences along x, which is 0 on planes and whose weights have the norm 6 (Immerkaer 1996).
+/// False for blocks that are partly black.
 bool measure(const LogLuminance& luminance, int column, int row, Block& block)
 {
     const Raster& guide = luminance.guide;
@@ -75,7 +76,7 @@ std::vector<Block> measure_blocks(const LogLuminance& luminance, const ParallelF
     return blocks;
 }
 
-/// The smoothest of each group of equally light blocks.
+/// From each group of about equally light blocks the one at the quantile kSmoothest of their noise.
 std::vector<Block> smoothest(std::vector<Block> blocks)
 {
     std::vector<Block> result;
@@ -95,7 +96,8 @@ std::vector<Block> smoothest(std::vector<Block> blocks)
     return result;
 }
 
-/// How far the variances of `blocks` are from read + photon * mean, as the sum of the absolute differences of logarithms.
+/// How far the variances of `blocks` are from read + photon * mean, as the sum of the absolute differences of
+/// logarithms.
 double distance(const std::vector<Block>& blocks, double read, double photon)
 {
     double sum = 0.0;
@@ -111,10 +113,11 @@ NoiseModel estimate_noise(const LogLuminance& luminance, const ParallelFor& para
     std::vector<Block> blocks = smoothest(measure_blocks(luminance, parallel));
     NoiseModel best;
     best.reference = luminance.reference;
-    // A group without any noise is a synthetic or clipped part, which says nothing of the others.
+    // Groups without any noise are synthetic or clipped parts, which do not tell the noise of the rest.
     blocks.erase(std::remove_if(blocks.begin(), blocks.end(), [](const Block& b) { return !(b.variance > 1e-14); }),
                  blocks.end());
-    // The line through two of the groups that is nearest to all: that is robust, and twelve groups have few pairs.
+    // Of all lines through two of the groups, the one nearest to all groups is taken. This is robust, and twelve groups
+    // have few pairs.
     double least = std::numeric_limits<double>::max();
     const auto consider = [&](double read, double photon) {
         if (read < 0.0 || photon < 0.0 || !(read + photon > 0.0))
