@@ -162,7 +162,7 @@ void before_libraries(int, char**, char**)
 }
 
 /// Runs before the constructors of any shared library.
-[[gnu::section(".preinit_array"), gnu::used]] void (*const first_of_all)(int, char**, char**) = before_libraries;
+[[gnu::section(".preinit_array"), gnu::used]] void (*const kFirstOfAll)(int, char**, char**) = before_libraries;
 #endif
 
 int run_arguments(const std::vector<std::string>& arguments)

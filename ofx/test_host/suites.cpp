@@ -109,7 +109,7 @@ std::recursive_mutex& mutex_of(OfxMutexHandle handle)
     return *reinterpret_cast<std::recursive_mutex*>(handle);
 }
 
-const OfxMultiThreadSuiteV1 thread_suite = {
+const OfxMultiThreadSuiteV1 kThreadSuite = {
     multi_thread,
     [](unsigned int* count) -> OfxStatus {
         *count = options.threads;
@@ -139,7 +139,7 @@ const OfxMultiThreadSuiteV1 thread_suite = {
     [](OfxMutexHandle handle) -> OfxStatus { return mutex_of(handle).try_lock() ? kOfxStatOK : kOfxStatFailed; },
 };
 
-const OfxMemorySuiteV1 memory_suite = {
+const OfxMemorySuiteV1 kMemorySuite = {
     [](void*, size_t bytes, void** memory) -> OfxStatus {
         *memory = std::malloc(bytes);
         return *memory != nullptr ? kOfxStatOK : kOfxStatErrMemory;
@@ -150,10 +150,10 @@ const OfxMemorySuiteV1 memory_suite = {
     },
 };
 
-const OfxMessageSuiteV1 message_suite = { message };
-const OfxMessageSuiteV2 lasting_message_suite = { message, message, clear_message };
-const OfxProgressSuiteV1 progress_suite = { begin_progress, update_progress, end_progress };
-const OfxProgressSuiteV2 named_progress_suite = { begin_named_progress, update_progress, end_progress };
+const OfxMessageSuiteV1 kMessageSuite = { message };
+const OfxMessageSuiteV2 kLastingMessageSuite = { message, message, clear_message };
+const OfxProgressSuiteV1 kProgressSuite = { begin_progress, update_progress, end_progress };
+const OfxProgressSuiteV2 kNamedProgressSuite = { begin_named_progress, update_progress, end_progress };
 
 }  // namespace
 
@@ -169,11 +169,11 @@ const void* fetch_suite(OfxPropertySetHandle, const char* name, int version)
         int version;
         const void* suite;
     } all[] = {
-        { kOfxPropertySuite, 1, &property_suite() },     { kOfxImageEffectSuite, 1, &effect_suite() },
-        { kOfxParameterSuite, 1, &parameter_suite() },   { kOfxMultiThreadSuite, 1, &thread_suite },
-        { kOfxMemorySuite, 1, &memory_suite },           { kOfxMessageSuite, 1, &message_suite },
-        { kOfxMessageSuite, 2, &lasting_message_suite }, { kOfxProgressSuite, 1, &progress_suite },
-        { kOfxProgressSuite, 2, &named_progress_suite },
+        { kOfxPropertySuite, 1, &property_suite() },    { kOfxImageEffectSuite, 1, &effect_suite() },
+        { kOfxParameterSuite, 1, &parameter_suite() },  { kOfxMultiThreadSuite, 1, &kThreadSuite },
+        { kOfxMemorySuite, 1, &kMemorySuite },          { kOfxMessageSuite, 1, &kMessageSuite },
+        { kOfxMessageSuite, 2, &kLastingMessageSuite }, { kOfxProgressSuite, 1, &kProgressSuite },
+        { kOfxProgressSuite, 2, &kNamedProgressSuite },
     };
     if (options.without.count(name) > 0)
         return nullptr;

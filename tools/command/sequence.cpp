@@ -96,9 +96,9 @@ bool check_written(const std::vector<Program>& programs, std::string& error)
 bool parse_one(const std::vector<std::string>& arguments, const Frame& frame, const Program& settings, Program& program,
                std::string& error)
 {
-    std::vector<std::string> expanded;
-    for (const std::string& argument : arguments)
-        expanded.push_back(for_frame(argument, frame));
+    std::vector<std::string> expanded(arguments.size());
+    std::transform(arguments.begin(), arguments.end(), expanded.begin(),
+                   [&](const std::string& argument) { return for_frame(argument, frame); });
     program.frame = frame;
     program.shot = settings.shot;
     if (!parse(expanded, program, error))

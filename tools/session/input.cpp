@@ -134,9 +134,9 @@ int radiance_orientation(const std::string& path)
 
 std::string names_of(const std::vector<ImageSpec>& specs)
 {
-    std::vector<std::string> names;
+    std::vector<std::string> names(specs.size());
     for (std::size_t i = 0; i < specs.size(); ++i)
-        names.push_back(part_name(specs[i], int(i)));
+        names[i] = part_name(specs[i], int(i));
     return Strutil::join(names, ", ");
 }
 

@@ -99,9 +99,8 @@ bool open_part(ImageOutput& out, const std::string& filename, const Parts& parts
         return out.open(filename, parts[i]->spec, ImageOutput::AppendSubimage);
     if (parts.size() == 1)
         return out.open(filename, parts[0]->spec);
-    std::vector<ImageSpec> specs;
-    for (const std::unique_ptr<Part>& part : parts)
-        specs.push_back(part->spec);
+    std::vector<ImageSpec> specs(parts.size());
+    std::transform(parts.begin(), parts.end(), specs.begin(), [](const auto& part) { return part->spec; });
     return out.open(filename, int(specs.size()), specs.data());
 }
 

@@ -70,9 +70,10 @@ std::vector<std::string> expand_files(const std::vector<std::string>& given)
     for (const std::string& name : given) {
         const bool exists = Filesystem::exists(name);
         if (exists && Filesystem::is_directory(name)) {
+            const std::string folder = name.back() == '/' ? name : name + '/';
             for (const std::string& entry : list_folder(name))
                 if (entry.back() != '/')
-                    files.push_back(name + (name.back() == '/' ? "" : "/") + entry);
+                    files.push_back(folder + entry);
         } else if (!exists && name.find_first_of("#%@") != name.npos) {
             const std::vector<std::string> frames = frames_of(name);
             files.insert(files.end(), frames.begin(), frames.end());

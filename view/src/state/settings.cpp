@@ -2,13 +2,13 @@
 #include "state/settings.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 
 #include <OpenImageIO/filesystem.h>
 
 #include <pimg/detail/format.h>
+#include <pimg/detail/safe_file.h>
 
 namespace pimgview {
 
@@ -37,16 +37,8 @@ bool make_folders(const std::string& folder)
 
 bool write_text(const std::string& filename, const std::string& text)
 {
-    const std::string temporary = filename + ".new";
-    if (!make_folders(Filesystem::parent_path(filename)))
-        return false;
-    std::ofstream file(temporary);
-    file << text;
-    file.close();
-    if (file && std::rename(temporary.c_str(), filename.c_str()) == 0)
-        return true;
-    std::remove(temporary.c_str());
-    return false;
+    std::string why;
+    return make_folders(Filesystem::parent_path(filename)) && pimg::write_whole_file(filename, text, why);
 }
 
 }  // namespace
@@ -79,7 +71,7 @@ bool write_settings(const Settings& settings, const std::string& filename)
     std::string text;
     for (const auto& [key, value] : settings)
         if (value.find('\n') == value.npos)
-            text += key + "=" + value + "\n";
+            text.append(key).append("=").append(value).append("\n");
     return write_text(filename, text);
 }
 
