@@ -148,7 +148,7 @@ HWY_INLINE void into_gamut(const Recolour& how, Vector y, Pixels& p)
         return;
     const HueLine line(how, y, p);
     // The share at which the line leaves the gamut, if that is before 1 / kFullSaturation.
-    constexpr int kHalvings = 10;
+    constexpr int kHalvings = 10;  // to a thousandth of the way, which is not seen
     Vector in = set(0.0f), out = set(1.0f / kFullSaturation);
     const auto leaves = hn::And(near, outside(line.at(out)));
     if (hn::AllFalse(Lanes(), leaves))

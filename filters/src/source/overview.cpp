@@ -16,6 +16,7 @@ namespace pimg {
 
 namespace {
 
+// Chosen by eye on the photographs of docs/look.md.
 constexpr int kCells = 64;                            ///< on the longer side
 constexpr double kRangeQuantile = 0.003;              ///< left out at each end of the dynamic range
 constexpr float kAboveBlack = 0.01f;                  ///< guide units

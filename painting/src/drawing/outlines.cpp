@@ -28,9 +28,11 @@ constexpr int kAlong = 6;             ///< steps to either side over which slope
 constexpr float kAlongSigma = 2.5f;   ///< of the weights of these steps
 constexpr float kLeastEnergy = 1.0f;  ///< squared slope below which nothing is looked at; more: faster
 constexpr float kAround = 8.0f;       ///< standard deviation in pixels of what is around an edge
-constexpr float kAlone = 1.3f,
-                kInhibition = 1.4f;           ///< weight of the mean slope around: 0.12 of the own one if alone
-constexpr float kLeastAlone = 0.15f;          ///< least share of its importance that an edge keeps; more: busier places
+// The share of its importance that an edge keeps is kAlone - kInhibition r, where r is the mean slope around it over
+// its own slope: 0.12 for an edge that is alone, which keeps all.
+constexpr float kAlone = 1.3f;                ///< more: busier places
+constexpr float kInhibition = 1.4f;           ///< more: calmer places
+constexpr float kLeastAlone = 0.15f;          ///< the least share; more: busier places
 constexpr float kStart = 6.0f;                ///< slope at which a line may start; more: fewer lines
 constexpr float kGoOn = 2.6f;                 ///< slope down to which it goes on; more: shorter lines
 constexpr int kGap = 4;                       ///< steps with less than that which a line crosses; more: longer lines

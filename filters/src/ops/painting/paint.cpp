@@ -160,7 +160,7 @@ ShownColours shown(ShownColours colours, const ProgressiveImage::Data& data)
 /// paint, the picture stays.
 void apply_alpha(const ProgressiveImage::Data& data, const OwnedChannels& picture, Studio& studio)
 {
-    constexpr float kLeastCover = 1e-3f;
+    constexpr float kLeastCover = 1e-3f;  // less paint than that is not seen, and dividing by it would amplify errors
     for (std::size_t c = 0; c < picture.channels.size(); ++c)
         for (std::size_t i = 0; i < studio.alpha.size(); ++i) {
             float& sample = studio.canvas.channels[c][i];

@@ -14,6 +14,7 @@ namespace pimg {
 
 namespace {
 
+// Chosen by eye on the photographs of docs/look.md, but for the property of the normal distribution.
 constexpr int kBlock = 16;                ///< pixels on a side of the parts whose noise is estimated
 constexpr std::size_t kBins = 12;         ///< groups of equally light blocks
 constexpr std::size_t kLeastBlocks = 8;   ///< in a group: fewer do not tell its noise

@@ -9,6 +9,7 @@ namespace pimg {
 
 namespace {
 
+// Chosen by eye on the photographs of docs/look.md.
 constexpr float kImplausible = 0x1p-5f;  ///< share of the light around it below which a pixel is no part of the scene
 constexpr float kBesideLight = 0x1p-3f;  ///< the same beside a light: lobes of filters take that much of what is around
 constexpr float kLight = 32.0f;  ///< how far a light outshines its surroundings; a lobe is a tenth of it or less
