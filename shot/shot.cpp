@@ -18,6 +18,7 @@
 #include <pimg/colour.h>
 #include <pimg/detail/format.h>
 #include <pimg/detail/safe_file.h>
+#include <pimg/detail/stop.h>
 
 #include "scenes.h"
 
@@ -120,6 +121,7 @@ bool median_light(const OIIO::ImageBuf& picture, const std::string& space, float
     std::vector<float> lit;
     std::vector<float> rgb(3 * std::size_t(picture.spec().width));
     for (OIIO::ROI row = picture.roi(); row.ybegin < picture.yend(); ++row.ybegin) {
+        stop_point();
         row.yend = row.ybegin + 1;
         for (int c = 0; c < 3; ++c) {
             row.chbegin = colour.channel(std::min(c, colour.count() - 1));

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <pimg/detail/elementary.h>
+#include <pimg/detail/stop.h>
 #include <pimg/strokes.h>
 
 namespace pimg {
@@ -167,12 +168,15 @@ Status collect_dabs(const Hierarchy& h, const DirectionField& field, const DabOp
     if (!status)
         return status;
     mesh.reserve(h.vertices());
+    constexpr Level kReplayedBetweenStops = 4096;  // splits; replayed and measured at a microsecond each
     Collector collector(field, options, dabs);
     for (Index v = 0; v < mesh.size(); ++v)
         collector.base(mesh, v);
     for (Level i = 0; i < h.levels(); ++i) {
         const Split& s = h.splits[i];
         const Index u = mesh.size();
+        if (i % kReplayedBetweenStops == 0)
+            stop_point();
         if (s.s >= u || !mesh.split(s.s, s.vl, s.vr, s.t, s.u))
             return Status::failure("hierarchy: split " + std::to_string(i) + " does not fit the mesh");
         collector.split(mesh, s.s, u, i + 1);

@@ -3,6 +3,7 @@
 // each pixel of the tile a stroke finds the nearest point of its middle line, that is how far along the pixel is and
 // how far across; then it looks up the brush there and blends.
 #include <pimg/detail/parallel.h>
+#include <pimg/detail/stop.h>
 #include <pimg/paint.h>
 
 #include <algorithm>
@@ -304,6 +305,7 @@ void paint_strokes(const Strokes& strokes, const std::vector<std::vector<float>>
     const int columns = (canvas.width + kTile - 1) / kTile, rows = (canvas.height + kTile - 1) / kTile;
     std::vector<std::vector<Index>> of_tile(std::size_t(columns) * std::size_t(rows));
     for (Index i = 0; i < Index(strokes.strokes.size()); ++i) {
+        stop_point();
         const Stroke& stroke = strokes.strokes[i];
         const Vec2* p = strokes.begin(stroke);
         Box box = around(p[0], p[1], reach_of(stroke));
@@ -321,8 +323,10 @@ void paint_strokes(const Strokes& strokes, const std::vector<std::vector<float>>
         const int x = int(t % std::size_t(columns)) * kTile, y = int(t / std::size_t(columns)) * kTile;
         const Box tile { x, y, std::min(x + kTile, canvas.width), std::min(y + kTile, canvas.height) };
         TilePainter painter(tile, brush, options, stop ? &*stop : nullptr, canvas);
-        for (Index i : of_tile[t])
+        for (Index i : of_tile[t]) {
+            stop_point();
             painter.paint(strokes, i, colours);
+        }
         if (options.ground)
             painter.fill_holes();
     });

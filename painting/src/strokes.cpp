@@ -3,6 +3,7 @@
 // bring the canvas closer to the picture.
 #include <pimg/detail/elementary.h>
 #include <pimg/detail/parallel.h>
+#include <pimg/detail/stop.h>
 #include <pimg/strokes.h>
 
 #include <algorithm>
@@ -220,8 +221,10 @@ std::vector<Site> sites_in_order(const std::vector<Dab>& dabs, const ShadePictur
 {
     std::vector<Site> sites;
     sites.reserve(dabs.size());
-    for (Index i = 0; i < Index(dabs.size()); ++i)
+    for (Index i = 0; i < Index(dabs.size()); ++i) {
+        stop_point();
         sites.push_back(site_of(dabs[i], i, picture, options));
+    }
     std::sort(sites.begin(), sites.end(),
               [](const Site& a, const Site& b) { return a.key != b.key ? a.key < b.key : a.dab < b.dab; });
     return sites;
@@ -249,6 +252,7 @@ Status plan_strokes(const Hierarchy& hierarchy, const ChannelsView& guides, cons
 
     Strokes laid;
     for (const Site& site : sites_in_order(dabs, picture, options)) {
+        stop_point();
         const Draft draft = planner.draft(site.centre, site.width, dabs[site.dab].length, std::uint32_t(site.key));
         const float gain = sketch.gain(draft.begin(), draft.size(), draft.width, draft.shade, kBare);
         if (options.tolerance > 0.0f && gain < options.tolerance)
@@ -263,6 +267,7 @@ Status plan_strokes(const Hierarchy& hierarchy, const ChannelsView& guides, cons
     strokes.height = guides.height;
     const float width = std::min(options.max, 2.0f * options.min);
     for (Vec2 place : sketch.bare_cells()) {
+        stop_point();
         if (sketch.is_covered(place))
             continue;
         const Draft draft = planner.draft(place, width, kGapLength * width, scramble(Index(strokes.strokes.size())));

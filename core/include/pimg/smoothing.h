@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include <pimg/channels.h>
@@ -19,12 +20,16 @@
 
 namespace pimg {
 
+class SweepPlan;
+
 /// What smoothing needs to know of a picture. It is computed once; each strength then takes one sweep and a few steps of
 /// diffusion.
 struct SmoothingSource {
     Channels samples;                 ///< one to four channels, each with a finite value per mesh pixel, row-major
     std::vector<PieceMeans> means;    ///< of each channel
     std::vector<SplitPair> evidence;  ///< squares of the sizes in pixels of the pieces of t and u, for each split
+    /// Made for many strengths: what is there for each split is in the order of this plan. Null: in the hierarchy's.
+    std::shared_ptr<const SweepPlan> plan;
 
     /// Bytes held.
     std::size_t memory() const;

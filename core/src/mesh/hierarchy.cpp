@@ -6,6 +6,7 @@
 
 #include "mesh/pixel_stencils.h"
 #include <pimg/detail/projection.h>
+#include <pimg/detail/stop.h>
 
 namespace pimg {
 
@@ -52,9 +53,12 @@ Status refine(const Hierarchy& h, Level level, Mesh& mesh, std::vector<Point>* c
     if (coarse)
         coarse->resize(level);
     m.reserve(std::size_t(h.base_vertices()) + level);
-    constexpr Level kAhead = 16;  // splits are in no order in memory
+    constexpr Level kAhead = 16;                  // splits are in no order in memory
+    constexpr Level kRefinedBetweenStops = 8192;  // done in the mesh at some hundred nanoseconds each
     for (Level i = 0; i < level; ++i) {
         const Split& s = h.splits[i];
+        if (i % kRefinedBetweenStops == 0)
+            stop_point();
         if (i + kAhead < level) {
             m.prefetch(h.splits[i + kAhead].s);
             m.prefetch_around(h.splits[i + kAhead / 2].s);

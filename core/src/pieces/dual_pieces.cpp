@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include <pimg/detail/stop.h>
+
 namespace pimg {
 
 namespace {
@@ -65,7 +67,9 @@ Status DualPieces::from_hierarchy(const Hierarchy& h, DualPieces& pieces)
         d.m_parents[d.m_base + i] = h.splits[i].s;
     }
 
+    stop_point();
     const std::vector<Index> vertex_at = finest_pieces(h);
+    stop_point();
     const std::size_t width = std::size_t(h.width), height = std::size_t(h.height);
     d.m_vertex_of.reserve(width * height);
     d.m_span.assign(vertices, 0);
@@ -81,7 +85,9 @@ Status DualPieces::from_hierarchy(const Hierarchy& h, DualPieces& pieces)
     for (Index v = vertices; v-- > d.m_base;)
         d.m_span[d.m_parents[v]] += d.m_span[v];
 
+    stop_point();
     d.m_first = first_of_runs(d.m_parents, d.m_span, d.m_base);
+    stop_point();
     d.m_order.resize(d.m_vertex_of.size());
     for (Index p = Index(d.m_vertex_of.size()); p-- > 0;) {
         const Index v = d.m_vertex_of[p];
@@ -98,6 +104,7 @@ std::vector<Index> DualPieces::labels(Level level) const
     std::vector<Index> piece(m_parents.size());
     for (Index v = 0; v < Index(piece.size()); ++v)
         piece[v] = v < n ? v : piece[m_parents[v]];
+    stop_point();
     std::vector<Index> result(m_vertex_of.size());
     for (std::size_t p = 0; p < result.size(); ++p)
         result[p] = piece[m_vertex_of[p]];

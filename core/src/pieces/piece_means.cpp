@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pimg/detail/piece_means.h>
+#include <pimg/detail/stop.h>
 
 namespace pimg {
 
@@ -42,6 +43,8 @@ std::vector<SplitPair> piece_sizes(const Hierarchy& h)
     std::vector<SplitPair> sizes(h.levels());
     const Index base = h.base_vertices();
     for (Level i = h.levels(); i-- > 0;) {
+        if (i % kBetweenStops == 0)
+            stop_point();
         float& s = size[h.stencils[i].s];
         sizes[i] = { s, size[base + i] };
         s += size[base + i];
@@ -62,6 +65,8 @@ PieceMeans piece_means(const Hierarchy& h, const float* samples)
     PieceMeans means;
     means.splits.resize(h.levels());
     for (Level i = h.levels(); i-- > 0;) {
+        if (i % kBetweenStops == 0)
+            stop_point();
         Piece& s = pieces[h.stencils[i].s];
         const Piece u = pieces[base + i];
         means.splits[i] = { s.mean, u.mean };

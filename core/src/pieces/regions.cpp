@@ -8,6 +8,7 @@
 #include <queue>
 
 #include <pimg/detail/elementary.h>
+#include <pimg/detail/stop.h>
 #include <pimg/dual_pieces.h>
 
 #include "pieces/region_graph.h"
@@ -33,6 +34,7 @@ void smooth(std::vector<float>& samples, std::size_t width, std::size_t height, 
         k /= total;
     std::vector<float> line;
     const auto pass = [&](std::size_t first, std::size_t step, std::size_t count) {
+        stop_point();
         line.resize(count + 2 * std::size_t(reach));
         for (std::size_t i = 0; i < line.size(); ++i) {
             const std::size_t from = i < std::size_t(reach) ? 0 : std::min(i - std::size_t(reach), count - 1);
@@ -74,6 +76,8 @@ std::vector<float> gradient(const ChannelsView& picture, float sigma)
         s = std::sqrt(s);
     return squares;
 }
+
+constexpr std::uint32_t kPassedBetweenStops = 1024;  ///< candidates; up to some microseconds each
 
 struct Candidate {
     float cost;
@@ -158,6 +162,7 @@ void RegionMerger::add_borders(const ChannelsView& picture)
         std::uint64_t pair;
         float strength;
     };
+    stop_point();
     std::vector<Side> sides;
     sides.reserve(2 * n);
     const auto add = [&](std::size_t p, std::size_t q) {
@@ -171,9 +176,16 @@ void RegionMerger::add_borders(const ChannelsView& picture)
         if (p + w < n)
             add(p, p + w);
     }
-    std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.pair < b.pair; });
+    std::uint32_t compared = 0;
+    std::stable_sort(sides.begin(), sides.end(), [&compared](const Side& a, const Side& b) {
+        if (++compared % kBetweenStops == 0)
+            stop_point();
+        return a.pair < b.pair;
+    });
     m_graph.reserve(sides.size());
     for (std::size_t i = 0; i < sides.size();) {
+        if (++compared % kBetweenStops == 0)
+            stop_point();
         const std::uint64_t pair = sides[i].pair;
         RegionGraph::Shared shared { 0.0f, 0.0f };
         for (; i < sides.size() && sides[i].pair == pair; ++i) {
@@ -249,6 +261,8 @@ bool RegionMerger::run()
 {
     const Index leaves = Index(m_regions.size());
     for (Index r = 0; r < leaves; ++r) {
+        if (r % kPassedBetweenStops == 0)
+            stop_point();
         find_best(r);
         if (m_regions[r].best != kGhost)
             enqueue(r);
@@ -256,7 +270,10 @@ bool RegionMerger::run()
     m_tree.m_merges.reserve(leaves - 1);
     m_tree.m_costs.reserve(leaves - 1);
     float highest = 0.0f;
+    std::uint32_t passed = 0;
     while (!m_queue.empty()) {
+        if (++passed % kPassedBetweenStops == 0)
+            stop_point();
         const Candidate next = m_queue.top();
         m_queue.pop();
         if (m_regions[next.region].stamp != next.stamp)

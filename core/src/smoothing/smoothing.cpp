@@ -9,6 +9,7 @@
 #include <pimg/bands.h>
 #include <pimg/detail/diffusion.h>
 #include <pimg/detail/piece_means.h>
+#include <pimg/detail/sweep_plan.h>
 
 namespace pimg {
 
@@ -36,96 +37,107 @@ template<int C>
 class FeatureSweep {
 public:
     /// `tolerance`: deviation of a single pixel of which half stays.
-    FeatureSweep(const Hierarchy& hierarchy, const SmoothingSource& source, float tolerance)
-        : m_hierarchy(hierarchy),
+    FeatureSweep(const SweepPlan& plan, const SmoothingSource& source, float tolerance)
+        : m_plan(plan),
           m_source(source),
           m_scale(1.0f / (tolerance * tolerance) / float(C)),
-          m_values(std::size_t(hierarchy.vertices()) * C)
+          m_values(plan.places() * C)
     {
     }
 
-    void run();
-    void scatter(Channels& channels) const;
+    void run(const ParallelFor& parallel);
+    const float* values() const { return m_values.data(); }
 
 private:
     struct Sample {
         float c[C];
     };
-    const float* at(Index v) const { return &m_values[std::size_t(v) * C]; }
-    Sample predict(const Stencil& k, Index a, Index b, float wa, float wb) const;
-    void place(Index v, Sample predicted, const Sample& mean, float evidence);
+    float* at(Index place) { return &m_values[std::size_t(place) * C]; }
+    Sample predict(Index s, Index a, Index b, float wa, float wb);
+    void place(float* value, const Sample& predicted, const Sample& mean, float evidence) const;
 
-    const Hierarchy& m_hierarchy;
+    const SweepPlan& m_plan;
     const SmoothingSource& m_source;
     float m_scale;
     std::vector<float> m_values;
 };
 
 template<int C>
-typename FeatureSweep<C>::Sample FeatureSweep<C>::predict(const Stencil& k, Index a, Index b, float wa, float wb) const
+typename FeatureSweep<C>::Sample FeatureSweep<C>::predict(Index s, Index a, Index b, float wa, float wb)
 {
-    const float *s = at(k.s), *pa = at(a), *pb = at(b);
+    const float *ps = at(s), *pa = at(a), *pb = at(b);
     Sample p;
     for (int c = 0; c < C; ++c)
-        p.c[c] = interpolate(s[c], pa[c], pb[c], wa, wb);
+        p.c[c] = interpolate(ps[c], pa[c], pb[c], wa, wb);
     return p;
 }
 
 template<int C>
-void FeatureSweep<C>::place(Index v, Sample predicted, const Sample& mean, float evidence)
+void FeatureSweep<C>::place(float* value, const Sample& predicted, const Sample& mean, float evidence) const
 {
     float square = 0.0f;
     for (int c = 0; c < C; ++c)
         square += (mean.c[c] - predicted.c[c]) * (mean.c[c] - predicted.c[c]);
     const float share = kept_share(square * m_scale * evidence);
     for (int c = 0; c < C; ++c)
-        m_values[std::size_t(v) * C + std::size_t(c)] = predicted.c[c] + share * (mean.c[c] - predicted.c[c]);
+        value[c] = predicted.c[c] + share * (mean.c[c] - predicted.c[c]);
 }
 
 template<int C>
-void FeatureSweep<C>::run()
+void FeatureSweep<C>::run(const ParallelFor& parallel)
 {
-    const Index base = m_hierarchy.base_vertices();
     const SplitPair* means[C];
     for (int c = 0; c < C; ++c) {
         const PieceMeans& of_channel = m_source.means[std::size_t(c)];
         means[c] = of_channel.splits.data();
-        for (Index v = 0; v < base; ++v)
-            m_values[std::size_t(v) * C + std::size_t(c)] = of_channel.base[v];
+        for (Index v = 0; v < Index(of_channel.base.size()); ++v)
+            at(m_plan.base_place(v))[c] = of_channel.base[v];
     }
-    for (Level i = 0; i < m_hierarchy.levels(); ++i) {
-        const Stencil& k = m_hierarchy.stencils[i];
-        const SplitPair evidence = m_source.evidence[i];
-        Sample mean_t, mean_u;
-        for (int c = 0; c < C; ++c) {
-            mean_t.c[c] = means[c][i].t;
-            mean_u.c[c] = means[c][i].u;
-        }
-        const Sample t = predict(k, k.at, k.bt, k.wat, k.wbt), u = predict(k, k.au, k.bu, k.wau, k.wbu);
-        place(k.s, t, mean_t, evidence.t);
-        place(base + i, u, mean_u, evidence.u);
-    }
+    m_plan.for_splits(parallel, [&](Level first, Level last) {
+        m_plan.visit_splits(first, last, [&](Level i, const PlannedSplit& k) {
+            const SplitPair evidence = m_source.evidence[i];
+            Sample mean_t, mean_u;
+            for (int c = 0; c < C; ++c) {
+                mean_t.c[c] = means[c][i].t;
+                mean_u.c[c] = means[c][i].u;
+            }
+            const Sample t = predict(k.s, k.at, k.bt, k.wat, k.wbt), u = predict(k.s, k.au, k.bu, k.wau, k.wbu);
+            place(at(k.s), t, mean_t, evidence.t);
+            place(at(k.u), u, mean_u, evidence.u);
+        });
+    });
 }
 
 template<int C>
-void FeatureSweep<C>::scatter(Channels& channels) const
+void run_sweep(const Hierarchy& hierarchy, const SmoothingSource& source, const SmoothingOptions& options,
+               Channels& features)
 {
-    channels.resize(C);
-    std::vector<float> values(m_hierarchy.vertices());
+    const SweepPlan unplanned = SweepPlan::unplanned(hierarchy);
+    const SweepPlan& plan = source.plan != nullptr ? *source.plan : unplanned;
+    FeatureSweep<C> sweep(plan, source, kFeaturePixels * std::max(options.strength, kLeastStrength));
+    sweep.run(options.parallel);
+    features.resize(C);
+    float* samples[C];
     for (int c = 0; c < C; ++c) {
-        for (Index v = 0; v < m_hierarchy.vertices(); ++v)
-            values[v] = at(v)[c];
-        channels[std::size_t(c)].resize(m_hierarchy.mesh_pixels());
-        pimg::scatter(m_hierarchy, values.data(), channels[std::size_t(c)].data());
+        features[std::size_t(c)].resize(hierarchy.mesh_pixels());
+        samples[c] = features[std::size_t(c)].data();
     }
+    plan.scatter_channels<C>(hierarchy, sweep.values(), samples, options.parallel);
 }
 
-template<int C>
-void run_sweep(const Hierarchy& hierarchy, const SmoothingSource& source, float strength, Channels& features)
+void sweep_features(const Hierarchy& hierarchy, const SmoothingSource& source, const SmoothingOptions& options,
+                    Channels& features)
 {
-    FeatureSweep<C> sweep(hierarchy, source, kFeaturePixels * std::max(strength, kLeastStrength));
-    sweep.run();
-    sweep.scatter(features);
+    switch (source.samples.size()) {
+    case 1:
+        return run_sweep<1>(hierarchy, source, options, features);
+    case 2:
+        return run_sweep<2>(hierarchy, source, options, features);
+    case 3:
+        return run_sweep<3>(hierarchy, source, options, features);
+    default:
+        return run_sweep<4>(hierarchy, source, options, features);
+    }
 }
 
 }  // namespace
@@ -154,16 +166,9 @@ SmoothingSource analyse_for_smoothing(const Hierarchy& hierarchy, Channels sampl
 
 void feature_sweep(const Hierarchy& hierarchy, const SmoothingSource& source, float strength, Channels& features)
 {
-    switch (source.samples.size()) {
-    case 1:
-        return run_sweep<1>(hierarchy, source, strength, features);
-    case 2:
-        return run_sweep<2>(hierarchy, source, strength, features);
-    case 3:
-        return run_sweep<3>(hierarchy, source, strength, features);
-    default:
-        return run_sweep<4>(hierarchy, source, strength, features);
-    }
+    SmoothingOptions options;
+    options.strength = strength;
+    sweep_features(hierarchy, source, options, features);
 }
 
 void smooth(const Hierarchy& hierarchy, const SmoothingSource& source, const SmoothingOptions& options,
@@ -173,11 +178,14 @@ void smooth(const Hierarchy& hierarchy, const SmoothingSource& source, const Smo
         result = source.samples;
         return;
     }
-    Channels features, start = source.samples;
-    feature_sweep(hierarchy, source, options.strength, features);
-    for (std::size_t c = 0; c < start.size(); ++c)
-        for (std::size_t i = 0; i < start[c].size(); ++i)
-            start[c][i] = features[c][i] + kStartShare * (start[c][i] - features[c][i]);
+    Channels features, start(source.samples.size());
+    sweep_features(hierarchy, source, options, features);
+    for (std::size_t c = 0; c < start.size(); ++c) {
+        const std::vector<float>&from = source.samples[c], &feature = features[c];
+        start[c].resize(from.size());
+        in_batches(options.parallel, from.size(),
+                   [&](std::size_t i) { start[c][i] = feature[i] + kStartShare * (from[i] - feature[i]); });
+    }
     DiffusionOptions diffusion;
     diffusion.width = hierarchy.mesh_width();
     diffusion.height = hierarchy.mesh_height();
@@ -216,7 +224,9 @@ void enhance(const Hierarchy& hierarchy, const SmoothingSource& source, const Sm
 {
     Channels smoothed;
     smooth(hierarchy, source, options, smoothed);
-    result = source.samples;
+    result.resize(source.samples.size());
+    for (std::size_t c = 0; c < result.size(); ++c)
+        result[c].resize(source.samples[c].size());
     // Differences over two pixels, twice the gradient: their square holds the factor 4.
     const float strength = std::max(options.strength, kLeastStrength);
     const float scale = 1.0f / (strength * strength * float(result.size()));
@@ -225,9 +235,9 @@ void enhance(const Hierarchy& hierarchy, const SmoothingSource& source, const Sm
         const std::vector<float> share = share_off_edges(smoothed, width, height, int(y), scale);
         for (std::size_t c = 0; c < result.size(); ++c) {
             float* to = &result[c][y * share.size()];
-            const float* from = &smoothed[c][y * share.size()];
+            const float *source_row = &source.samples[c][y * share.size()], *from = &smoothed[c][y * share.size()];
             for (std::size_t x = 0; x < share.size(); ++x)
-                to[x] += (gain - 1.0f) * share[x] * (to[x] - from[x]);
+                to[x] = source_row[x] + (gain - 1.0f) * share[x] * (source_row[x] - from[x]);
         }
     });
 }

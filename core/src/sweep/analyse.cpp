@@ -3,12 +3,15 @@
 #include <pimg/bands.h>
 #include <pimg/detail/analyse.h>
 #include <pimg/detail/parallel.h>
+#include <pimg/detail/stop.h>
 
 #include <algorithm>
 
 namespace pimg {
 
 namespace {
+
+constexpr Level kReplayedBetweenStops = 2048;  ///< splits; undone in the mesh at a microsecond or two each
 
 /// The volume equation of one collapse, solved for the intensity of s: a weighted mean of t, u and their ring,
 ///     z_s = z_t + sum of weight (z - z_t).
@@ -82,10 +85,13 @@ void subtract_predictions(const Hierarchy& h, const float* samples, Bands& bands
 {
     std::vector<float> values(h.vertices());
     std::vector<Detail>& details = bands.details;
-    sweep(h, bands, values.data(), h.levels(), [&](Level i, Detail) {
-        const SplitPair predicted = predict(h.stencils[i], values.data());
-        details[i] = { details[i].t - predicted.t, details[i].u - predicted.u };
-        return details[i];
+    std::copy(bands.base.begin(), bands.base.end(), values.begin());
+    in_stages(h.levels(), kBetweenStops, [&](Level first, Level last) {
+        sweep_splits(h, first, last, values.data(), [&](Level i) {
+            const SplitPair predicted = predict(h.stencils[i], values.data());
+            details[i] = { details[i].t - predicted.t, details[i].u - predicted.u };
+            return details[i];
+        });
     });
     bands.residual.clear();
     if (h.between.empty())
@@ -101,8 +107,7 @@ Status analyse(const Hierarchy& h, const std::vector<const float*>& channels, st
 {
     Mesh mesh;
     std::vector<Point> coarse(h.levels());
-    Status status = refine(h, h.levels(), mesh, &coarse);
-    if (!status)
+    if (const Status status = refine(h, h.levels(), mesh, &coarse); !status)
         return status;
     const Index base = h.base_vertices();
     std::vector<std::vector<float>> values(channels.size(), std::vector<float>(h.vertices()));
@@ -119,6 +124,8 @@ Status analyse(const Hierarchy& h, const std::vector<const float*>& channels, st
                 __builtin_prefetch(z.data() + (q == kGhost ? 0 : q));
     };
     for (Level i = h.levels(); i-- > 0;) {
+        if (i % kReplayedBetweenStops == 0)
+            stop_point();
         const Index s = h.splits[i].s, u = base + i;
         if (i >= kAhead) {
             mesh.prefetch(h.splits[i - kAhead].s);

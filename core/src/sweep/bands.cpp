@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <pimg/detail/parallel.h>
+#include <pimg/detail/stop.h>
 
 namespace pimg {
 
@@ -31,7 +32,10 @@ std::vector<float> values_at(const Hierarchy& h, const Bands& bands, Level level
 {
     level = std::min(level, h.levels());
     std::vector<float> values(std::size_t(h.base_vertices()) + level);
-    sweep(h, bands, values.data(), level, [](Level, Detail d) { return d; });
+    std::copy(bands.base.begin(), bands.base.end(), values.begin());
+    in_stages(level, kBetweenStops, [&](Level first, Level last) {
+        sweep_splits(h, first, last, values.data(), [&](Level i) { return bands.details[i]; });
+    });
     return values;
 }
 

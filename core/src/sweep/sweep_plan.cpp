@@ -7,6 +7,7 @@
 #include <thread>
 
 #include <pimg/detail/parallel.h>
+#include <pimg/detail/stop.h>
 
 namespace pimg {
 
@@ -118,6 +119,8 @@ std::vector<Scheduled> schedule(const Hierarchy& h, const std::vector<Index>& pl
     std::vector<Scheduled> all(n);
     Scheduler scheduler(h.vertices());
     for (Level i = 0; i < n; ++i) {
+        if (i % kTogether == 0)
+            stop_point();
         __builtin_prefetch(reinterpret_cast<const char*>(&h.stencils[i]) + 4096);
         if (i + kAhead < n)
             prefetch(scheduler.last_uses(), h.stencils[i + kAhead]);
@@ -213,22 +216,7 @@ SweepPlan SweepPlan::unplanned(const Hierarchy& hierarchy)
     plan.m_places = hierarchy.vertices();
     plan.m_base.resize(hierarchy.base_vertices());
     std::iota(plan.m_base.begin(), plan.m_base.end(), Index(0));
-    plan.m_tasks.push_back({ 0, plan.m_levels, 0 });
     return plan;
-}
-
-std::vector<Detail> SweepPlan::in_order(const std::vector<Detail>& details, const ParallelFor& parallel) const
-{
-    if (m_unplanned != nullptr)
-        return details;
-    std::vector<Detail> ordered(details.size());
-    in_batches(parallel, details.size(), [&](std::size_t j) {
-        constexpr std::size_t kAhead = 24;
-        if (j + kAhead < details.size())
-            __builtin_prefetch(&details[m_order[j + kAhead]]);
-        ordered[j] = details[m_order[j]];
-    });
-    return ordered;
 }
 
 void SweepPlan::set_base(const std::vector<float>& base, float factor, float* values) const
@@ -244,6 +232,13 @@ void SweepPlan::for_splits(const ParallelFor& parallel, const std::function<void
     std::atomic<std::size_t> next { 0 }, done { 0 };
     std::atomic<bool> failed { false };  // a body has thrown: what waits for it would wait for ever
     const std::size_t workers = std::min<std::size_t>(m_tasks.size(), 64);
+    if (m_unplanned != nullptr) {
+        for (Level first = 0; first < m_levels; first += kTogether) {
+            stop_point();
+            body(first, std::min(first + kTogether, m_levels));
+        }
+        return;
+    }
     run(parallel, workers, [&](std::size_t) {
         for (std::size_t task; (task = next.fetch_add(1, std::memory_order_relaxed)) < m_tasks.size();) {
             for (int waits = 0; done.load(std::memory_order_acquire) < m_tasks[task].after; ++waits) {
@@ -253,6 +248,7 @@ void SweepPlan::for_splits(const ParallelFor& parallel, const std::function<void
                     std::this_thread::yield();
             }
             try {
+                stop_point();
                 body(m_tasks[task].first, m_tasks[task].last);
             } catch (...) {
                 failed = true;
@@ -263,10 +259,18 @@ void SweepPlan::for_splits(const ParallelFor& parallel, const std::function<void
     });
 }
 
-void SweepPlan::scatter(const Hierarchy& h, const float* values, float* samples, const ParallelFor& parallel) const
+void SweepPlan::for_ranges(const ParallelFor& parallel, const std::function<void(Level, Level)>& body) const
+{
+    run(parallel, batches_of(m_levels), [&](std::size_t batch) {
+        const Level first = Level(batch * kBatch);
+        body(first, std::min(m_levels, first + Level(kBatch)));
+    });
+}
+
+void SweepPlan::for_runs(const Hierarchy& h, const ParallelFor& parallel, const CopyRun& copy) const
 {
     if (m_unplanned != nullptr) {
-        pimg::scatter(h, values, samples, parallel);
+        in_batches(parallel, h.vertices(), [&](std::size_t v) { copy(v, h.pixels[v], 1); });
         return;
     }
     constexpr std::size_t kRows = 16;
@@ -275,7 +279,18 @@ void SweepPlan::scatter(const Hierarchy& h, const float* values, float* samples,
     run(parallel, (height + kRows - 1) / kRows, [&](std::size_t task) {
         for (Index y = Index(task * kRows); y < std::min(height, Index((task + 1) * kRows)); ++y)
             for (Index x = 0; x < width; x += kTile)
-                std::copy_n(values + places.of(x, y), std::min(kTile, width - x), samples + std::size_t(y) * width + x);
+                copy(places.of(x, y), std::size_t(y) * width + x, std::min(kTile, width - x));
+    });
+}
+
+void SweepPlan::scatter(const Hierarchy& h, const float* values, float* samples, const ParallelFor& parallel) const
+{
+    if (m_unplanned != nullptr) {
+        pimg::scatter(h, values, samples, parallel);
+        return;
+    }
+    for_runs(h, parallel, [&](std::size_t place, std::size_t pixel, std::size_t count) {
+        std::copy_n(values + place, count, samples + pixel);
     });
     interpolate_between(h, samples, parallel);
 }

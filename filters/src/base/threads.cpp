@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <memory>
@@ -19,6 +20,7 @@
 #include <OpenImageIO/thread.h>
 
 #include <pimg/detail/parallel.h>
+#include <pimg/detail/stop.h>
 
 namespace pimg {
 
@@ -29,6 +31,9 @@ namespace {
 /// asked for while the queue is longer than this. It is far above what loops that follow each other leave behind (a few
 /// per loop), and costs about 50 kB at most.
 constexpr std::size_t kLongestQueue = 256;
+
+/// How often a caller who has nothing to do but wait asks whether the work is to stop.
+constexpr std::chrono::milliseconds kBetweenQuestions(5);
 
 /// One loop, shared by the calling thread and the pool threads that help it. A helper may be started by the pool long
 /// after the loop has ended; it then finds the loop closed and leaves. So the loop outlives its caller, but `body`,
@@ -41,7 +46,10 @@ public:
     void work()
     {
         for (std::size_t i; (i = m_next.fetch_add(1, std::memory_order_relaxed)) < m_n;)
-            m_first.guard([&] { (*m_body)(i); });
+            m_first.guard([&] {
+                stop_point();
+                (*m_body)(i);
+            });
     }
 
     /// What a pool thread does.
@@ -53,7 +61,10 @@ public:
                 return;
             ++m_helping;
         }
-        work();
+        {
+            const StopScope::Helper helper(m_stop);
+            work();
+        }
         std::lock_guard<std::mutex> lock(m_mutex);
         if (--m_helping == 0)
             m_idle.notify_all();
@@ -68,13 +79,19 @@ public:
             std::this_thread::yield();
         std::unique_lock<std::mutex> lock(m_mutex);
         m_closed = true;
-        m_idle.wait(lock, [&] { return m_helping == 0; });
+        if (m_stop == nullptr)
+            m_idle.wait(lock, [&] { return m_helping == 0; });
+        while (m_helping != 0) {
+            m_idle.wait_until(lock, std::chrono::system_clock::now() + kBetweenQuestions);
+            m_stop->goes_on();  // if not, the helpers are told at their next stop point
+        }
         m_first.rethrow();
     }
 
 private:
     const std::size_t m_n;
     const std::function<void(std::size_t)>* m_body;
+    StopScope* const m_stop = StopScope::current();  ///< the caller's, like m_body
     std::atomic<std::size_t> m_next { 0 };
     std::atomic<int> m_helping { 0 };  ///< changed under the mutex
     std::mutex m_mutex;
@@ -88,7 +105,7 @@ private:
 ParallelFor pool_loop(int nthreads)
 {
     const int threads = nthreads > 0 ? nthreads : OIIO::get_int_attribute("threads", 1);
-    if (threads <= 1)
+    if (threads <= 1 && StopScope::current() == nullptr)
         return {};
     return [threads](std::size_t n, const std::function<void(std::size_t)>& body) {
         OIIO::thread_pool* const pool = OIIO::default_thread_pool();

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <pimg/detail/parallel.h>
+#include <pimg/detail/stop.h>
 
 namespace pimg {
 
@@ -61,12 +62,14 @@ float shaded(float value, float expected)
 
 void shade_vertices(const Hierarchy& hierarchy, const Bands& bands, Level level, float* values)
 {
-    std::vector<float> finest(hierarchy.vertices());
-    sweep(hierarchy, bands, finest.data(), hierarchy.levels(), [](Level, Detail d) { return d; });
+    const std::vector<float> finest = values_at(hierarchy, bands, hierarchy.levels());
     std::vector<Piece> pieces(finest.begin(), finest.end());
     const Index made = hierarchy.base_vertices();
-    for (Level i = hierarchy.levels(); i-- > level;)
+    for (Level i = hierarchy.levels(); i-- > level;) {
+        if (i % kBetweenStops == 0)
+            stop_point();
         pieces[hierarchy.stencils[i].s].add(pieces[made + i]);
+    }
     for (Index v = 0; v < made + level; ++v) {
         const Piece& piece = pieces[v];
         const float expected = float(piece.count / piece.inverse_sum);

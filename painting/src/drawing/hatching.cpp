@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include <pimg/detail/elementary.h>
+#include <pimg/detail/stop.h>
 
 #include "drawing/raster_ops.h"
 
@@ -167,6 +168,7 @@ void Streamlines::claim(const InkLine& line)
 void Streamlines::grow_beside_lines()
 {
     for (; m_first + m_next < m_drawing.lines.size(); ++m_next) {
+        stop_point();
         const InkLine line = m_drawing.lines[m_first + m_next];
         const Index step = Index(std::max(1.0f, m_layer.pen));
         for (Index k = 0; k < line.count; k += step) {
@@ -185,14 +187,18 @@ void Streamlines::fill()
 {
     constexpr int kStep = 2;
     const float pitch = kAnchors * m_layer.pen;
-    for (float y = 0.5f * pitch; y < float(m_cover.height); y += pitch)
+    for (float y = 0.5f * pitch; y < float(m_cover.height); y += pitch) {
+        stop_point();
         for (float x = 0.5f * pitch; x < float(m_cover.width); x += pitch)
             grow({ x, y }, 1.0f);
+    }
     grow_beside_lines();
-    for (int y = 0; y < m_cover.height; y += kStep)
+    for (int y = 0; y < m_cover.height; y += kStep) {
+        stop_point();
         for (int x = 0; x < m_cover.width; x += kStep)
             if (grow({ float(x), float(y) }, 1.0f))
                 grow_beside_lines();
+    }
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 
 #include <pimg/detail/elementary.h>
 #include <pimg/detail/parallel.h>
+#include <pimg/detail/stop.h>
 
 #include "drawing/raster_ops.h"
 
@@ -356,6 +357,7 @@ void Tracer::finish(std::vector<InkPoint>& points, bool joined_at_first, bool jo
 void Tracer::trace()
 {
     for (const std::size_t start : starts()) {
+        stop_point();
         if (m_marks[start].line >= 0)
             continue;
         const Index width = Index(m_edges.slopes().width);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <pimg/detail/elementary.h>
+#include <pimg/detail/stop.h>
 
 #include "drawing/raster_ops.h"
 
@@ -55,6 +56,7 @@ void Stippler::diffuse()
     const int w = m_density.width, h = m_density.height;
     std::vector<float> here(std::size_t(w) + 2, 0.0f), below = here;
     for (int y = 0; y < h; ++y) {
+        stop_point();
         const int step = y % 2 ? -1 : 1;
         for (int k = 0; k < w; ++k) {
             const int x = step > 0 ? k : w - 1 - k;
@@ -86,6 +88,7 @@ void Stippler::assign()
     std::vector<float> least(m_density.samples.size(), 1e30f);
     std::vector<Index> owner(m_density.samples.size(), kGhost);
     for (Index i = 0; i < Index(m_dots.size()); ++i) {
+        stop_point();
         const Vec2 p = m_dots[i];
         const float density = std::max(nearest(m_density, p), 1e-3f);
         const float reach = kReach / std::sqrt(float(elementary::kPi) * density);
@@ -101,6 +104,7 @@ void Stippler::assign()
                 }
             }
     }
+    stop_point();
     m_cells.assign(m_dots.size(), Cell {});
     for (std::size_t at = 0; at < owner.size(); ++at)
         if (owner[at] != kGhost) {

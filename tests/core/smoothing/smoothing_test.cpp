@@ -11,9 +11,11 @@
 
 #include <pimg/detail/diffusion.h>
 #include <pimg/detail/piece_means.h>
+#include <pimg/detail/smoothing_plan.h>
 #include <pimg/simplify.h>
 
 #include "core/pictures.h"
+#include "core/threads.h"
 
 using namespace pimg;
 using namespace pimg::test;
@@ -116,6 +118,20 @@ double mean(const std::vector<float>& v)
 double row_mean(const std::vector<float>& v, int y, int x0, int x1)
 {
     return std::accumulate(v.begin() + y * kSize + x0, v.begin() + y * kSize + x1, 0.0) / (x1 - x0);
+}
+
+TEST(Smoothing, PlannedSweepsGiveTheSame)
+{
+    Channels channels;
+    for (int c = 0; c < 4; ++c) {
+        channels.push_back(sample([c](int x, int y) { return structure(x + 5 * c, y) + texture(x, y + c); }));
+        const Scene scene = build(kSize, kSize, channels);
+        Scene planned = scene;
+        plan_sweeps(std::make_shared<SweepPlan>(scene.hierarchy), planned.source, threads(2));
+        for (const unsigned count : { 1u, 2u, 5u })
+            EXPECT_EQ(smoothed(planned, 0.05f, threads(count)), smoothed(scene, 0.05f)) << c + 1 << " channels";
+        EXPECT_EQ(enhanced(planned, 0.05f, 3.0f), enhanced(scene, 0.05f, 3.0f));
+    }
 }
 
 }  // namespace

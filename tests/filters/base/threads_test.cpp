@@ -13,6 +13,7 @@
 #include <OpenImageIO/thread.h>
 
 #include <pimg/detail/parallel.h>
+#include <pimg/detail/stop.h>
 #include <pimg/imagebufalgo.h>
 #include <pimg/labels.h>
 
@@ -227,6 +228,60 @@ TEST(ProgressiveImage, FiltersInTasksAndThreadsDoNotWaitForEachOther)
             thread.join();
         EXPECT_EQ(wrong, 0);
     }
+}
+
+TEST(PoolLoop, StopsOnEveryThread)
+{
+    const Watchdog watchdog("a loop that is stopped");
+    const PoolOf pool(4);
+    const std::thread::id own = std::this_thread::get_id();
+    for (const int threads : { 1, 4 }) {
+        std::atomic<int> calls { 0 };
+        const StopScope scope([&] {
+            EXPECT_EQ(std::this_thread::get_id(), own);
+            return calls < 20;
+        });
+        // The first items take for ever, on whatever thread they are.
+        const auto body = [&](std::size_t) {
+            ++calls;
+            for (;;) {
+                stop_point();
+                if (calls < 20)
+                    return;
+                std::this_thread::yield();
+            }
+        };
+        EXPECT_THROW(run(pool_loop(threads), 1000, body), Stopped);
+        EXPECT_LT(calls, 30);
+    }
+}
+
+/// Stopped at the first question, at the second and so on, until nobody asks any more.
+TEST(ProgressiveImage, BuildsAndFiltersStop)
+{
+    const Watchdog watchdog("builds and filters that are stopped", 100);
+    const ImageBuf scene = hdr_scene(120, 90);
+    int most = 0;
+    for (int which = 0; which < 5; ++which) {
+        ProgressiveImage whole;
+        ASSERT_TRUE(whole.build(scene)) << whole.error();
+        const std::vector<float> expected = pixels(filtered(whole, which, 2));
+        for (int moment = 0;; ++moment) {
+            int asked = 0;
+            const StopScope scope([&] { return asked++ < moment; });
+            ProgressiveImage image;
+            ImageBuf result;
+            if (image.build(scene))
+                result = filtered(image, which, 2);
+            most = std::max(most, asked);
+            if (!scope.stopped()) {
+                EXPECT_TRUE(identical(pixels(result), expected));
+                break;
+            }
+            EXPECT_EQ(image.initialized() ? result.geterror() : image.error(), "stopped");
+        }
+    }
+    EXPECT_GT(most, 1);
 }
 
 }  // namespace

@@ -39,12 +39,15 @@ public:
 
     Level levels() const { return m_levels; }
     PlannedSplit split(Level i) const;
+    Level level_of(Level i) const { return m_unplanned != nullptr ? i : m_order[i]; }  ///< its number in the hierarchy
+    Index base_place(Index v) const { return m_base[v]; }                              ///< of a base vertex
 
     /// Length of a sweep's values; not every place is a vertex's.
     std::size_t places() const { return m_places; }
 
-    /// Details in the order of the plan.
-    std::vector<Detail> in_order(const std::vector<Detail>& details, const ParallelFor& parallel = {}) const;
+    /// What there is one of for each split, such as details, in the order of the plan.
+    template<class T>
+    std::vector<T> in_order(const std::vector<T>& of_splits, const ParallelFor& parallel = {}) const;
 
     /// Puts the values of the base vertices in place, times `factor`.
     void set_base(const std::vector<float>& base, float factor, float* values) const;
@@ -54,6 +57,10 @@ public:
     /// is thrown again.
     void for_splits(const ParallelFor& parallel, const std::function<void(Level first, Level last)>& body) const;
 
+    /// Calls visit(i, split) for every split of such a range; split is a PlannedSplit.
+    template<class Visit>
+    void visit_splits(Level first, Level last, Visit&& visit) const;
+
     /// Sweeps such a range; detail_of(i) returns the detail of the plan's split i.
     template<class DetailOf>
     void sweep(Level first, Level last, float* values, DetailOf&& detail_of) const;
@@ -62,10 +69,22 @@ public:
     void scatter(const Hierarchy& hierarchy, const float* values, float* samples,
                  const ParallelFor& parallel = {}) const;
 
+    /// The same for values of C channels, those of a place side by side; channel c goes to samples[c].
+    template<int C>
+    void scatter_channels(const Hierarchy& hierarchy, const float* values, float* const* samples,
+                          const ParallelFor& parallel = {}) const;
+
     std::size_t memory() const;
 
 private:
     SweepPlan() = default;
+
+    /// Calls copy(place, pixel, count) for runs of pixels in a row whose places follow each other.
+    using CopyRun = std::function<void(std::size_t place, std::size_t pixel, std::size_t count)>;
+    void for_runs(const Hierarchy& hierarchy, const ParallelFor& parallel, const CopyRun& copy) const;
+
+    /// Calls body(first, last) for ranges that together are all splits, in no order.
+    void for_ranges(const ParallelFor& parallel, const std::function<void(Level first, Level last)>& body) const;
 
     Level m_levels = 0;
     std::size_t m_places = 0;
@@ -84,6 +103,39 @@ inline PlannedSplit SweepPlan::split(Level i) const
     return { k.s, k.at, k.bt, k.au, k.bu, m_unplanned->base_vertices() + i, k.wat, k.wbt, k.wau, k.wbu };
 }
 
+template<class T>
+std::vector<T> SweepPlan::in_order(const std::vector<T>& of_splits, const ParallelFor& parallel) const
+{
+    if (m_unplanned != nullptr)
+        return of_splits;
+    std::vector<T> ordered(of_splits.size());
+    for_ranges(parallel, [&](Level first, Level last) {
+        constexpr Level kAhead = 24;
+        for (Level j = first; j < last; ++j) {
+            if (j + kAhead < m_levels)
+                __builtin_prefetch(&of_splits[m_order[j + kAhead]]);
+            ordered[j] = of_splits[m_order[j]];
+        }
+    });
+    return ordered;
+}
+
+template<class Visit>
+void SweepPlan::visit_splits(Level first, Level last, Visit&& visit) const
+{
+    if (m_unplanned != nullptr) {
+        for (Level i = first; i < last; ++i)
+            visit(i, split(i));
+        return;
+    }
+    constexpr std::ptrdiff_t kAhead = 2048;  // bytes: past the end of a page, where the processor's own guesses stop
+    for (Level i = first; i < last; ++i) {
+        const PlannedSplit& k = m_splits[i];
+        __builtin_prefetch(reinterpret_cast<const char*>(&k) + kAhead);
+        visit(i, k);
+    }
+}
+
 template<class DetailOf>
 void SweepPlan::sweep(Level first, Level last, float* values, DetailOf&& detail_of) const
 {
@@ -91,15 +143,25 @@ void SweepPlan::sweep(Level first, Level last, float* values, DetailOf&& detail_
         sweep_splits(*m_unplanned, first, last, values, detail_of);
         return;
     }
-    constexpr std::ptrdiff_t kAhead = 2048;  // bytes: past the end of a page, where the processor's own guesses stop
-    for (Level i = first; i < last; ++i) {
-        const PlannedSplit& k = m_splits[i];
-        __builtin_prefetch(reinterpret_cast<const char*>(&k) + kAhead);
+    visit_splits(first, last, [&](Level i, const PlannedSplit& k) {
         const SplitPair predicted = predict(k, values);
         const Detail d = detail_of(i);
         values[k.u] = predicted.u + d.u;
         values[k.s] = predicted.t + d.t;
-    }
+    });
+}
+
+template<int C>
+void SweepPlan::scatter_channels(const Hierarchy& hierarchy, const float* values, float* const* samples,
+                                 const ParallelFor& parallel) const
+{
+    for_runs(hierarchy, parallel, [&](std::size_t place, std::size_t pixel, std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i)
+            for (int c = 0; c < C; ++c)
+                samples[c][pixel + i] = values[(place + i) * C + std::size_t(c)];
+    });
+    for (int c = 0; c < C; ++c)
+        interpolate_between(hierarchy, samples[c], parallel);
 }
 
 }  // namespace pimg

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ops/regions/partition.h"
 
+#include <pimg/detail/stop.h>
 #include <pimg/dual_pieces.h>
 #include <pimg/labels.h>
 
@@ -32,6 +33,7 @@ std::vector<std::vector<float>> part_means(const ProgressiveImage::Data& data, c
 {
     std::vector<std::vector<float>> results;
     for (int i = 0; i < data.colour.count(); ++i) {
+        stop_point();
         std::vector<float> samples = channel_samples(data, data.colour.channel(i));
         const std::vector<float> means = label_means(partition.labels, partition.count, samples.data());
         for (std::size_t k = 0; k < samples.size(); ++k)
