@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdlib>
 #include <map>
-#include <mutex>
 #include <utility>
 
 #include <OpenColorIO/OpenColorIO.h>
@@ -14,6 +12,7 @@
 #include <pimg/detail/rec709.h>
 #include <pimg/display.h>
 
+#include "colour/colour_config.h"
 #include "colour/icc.h"
 #include "colour/layers.h"
 #include "colour/primaries.h"
@@ -57,21 +56,6 @@ const OCIO::ConstConfigRcPtr& raw_config()
 OCIO::ConstCPUProcessorRcPtr cpu(const OCIO::ConstProcessorRcPtr& processor)
 {
     return processor->getDefaultCPUProcessor();
-}
-
-/// The configuration of $OCIO, read once per value of that variable; null when it is not set. Without the test
-/// OpenColorIO would print that colour management is disabled.
-OCIO::ConstConfigRcPtr environment_config()
-{
-    static std::mutex mutex;
-    static std::pair<std::string, OCIO::ConstConfigRcPtr> cached;
-    const char* name = std::getenv("OCIO");
-    if (name == nullptr || *name == '\0')
-        return nullptr;
-    std::lock_guard<std::mutex> lock(mutex);
-    if (cached.first != name)
-        cached = { name, OCIO::Config::CreateFromFile(name) };
-    return cached.second;
 }
 
 /// Applies a processor to each of `count` numbers, three at a time as if they were pixels, since OpenColorIO has no
@@ -211,7 +195,7 @@ std::array<float, 9> to_floats(const Imath::M33d& matrix)
 /// The steps of Colour::resolve().
 struct ColourFinder {
     Colour& colour;
-    OCIO::ConstConfigRcPtr config;  ///< of $OCIO, or null
+    OCIO::ConstConfigRcPtr config;  ///< or null
 
     void set_decoder(const OCIO::ConstCPUProcessorRcPtr& processor)
     {
@@ -469,7 +453,7 @@ struct ColourFinder {
 std::string space_by_file_rule(const std::string& filename)
 {
     try {
-        const OCIO::ConstConfigRcPtr config = environment_config();
+        const OCIO::ConstConfigRcPtr config = current_colour_config();
         if (config == nullptr || config->filepathOnlyMatchesDefaultRule(filename.c_str()))
             return {};
         const OCIO::ConstColorSpaceRcPtr space =
@@ -483,10 +467,10 @@ std::string space_by_file_rule(const std::string& filename)
 bool check_colour_config(std::string& error)
 {
     try {
-        environment_config();
+        current_colour_config();
         return true;
     } catch (const OCIO::Exception& exception) {
-        error = std::string("$OCIO: ") + exception.what();
+        error = name_of_colour_config() + ": " + exception.what();
         return false;
     }
 }
@@ -496,7 +480,7 @@ bool Colour::resolve(const OIIO::ImageSpec& spec, const std::string& space, cons
 {
     try {
         Colour found;
-        ColourFinder finder { found, environment_config() };
+        ColourFinder finder { found, current_colour_config() };
         if (!finder.find_channels(spec, layer, error))
             return false;
         if (space.empty()) {
@@ -547,7 +531,7 @@ bool Colour::to_scene_linear(float* rgb, std::size_t count) const
 {
     try {
         Colour working;
-        ColourFinder { working, environment_config() }.use_scene_linear();
+        ColourFinder { working, current_colour_config() }.use_scene_linear();
         decode(rgb, count);
         if (m_to_rec709 != working.m_to_rec709) {
             to_rec709(rgb, count);

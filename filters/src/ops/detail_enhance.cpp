@@ -89,25 +89,77 @@ Curve step_curve(Level from, Level to, float gain, Level levels)
     return curve;
 }
 
-/// One channel with its details amplified. Only what the gains add is synthesised, and then added to the picture, so
-/// that a gain of 1 changes no bit.
-std::vector<float> enhanced(const ProgressiveImage::Data& data, int channel, const Bands& bands, int exponent,
-                            const std::vector<float>& more)
+/// A sweep of C channels whose values lie side by side, of details only: the base mesh is 0.
+template<int C>
+void sweep_details(const PlannedChannels& channels, const std::vector<float>& more, const ParallelFor& parallel,
+                   float* values)
 {
-    std::vector<float> values(data.hierarchy.vertices(), 0.0f);
-    const Detail* details = bands.details.data();
-    const auto first = std::find_if(more.begin(), more.end() - 1, [](float m) { return m != 0.0f; });
-    sweep_splits(data.hierarchy, Level(first - more.begin()), data.hierarchy.levels(), values.data(), [&](Level i) {
-        return Detail { more[i] * details[i].t, more[i] * details[i].u };
+    const SweepPlan& plan = *channels.plan;
+    const Detail* details[C];
+    std::copy_n(channels.details.begin(), C, details);
+    plan.for_splits(parallel, [&](Level first, Level last) {
+        plan.visit_splits(first, last, [&](Level i, const PlannedSplit& k) {
+            const float m = more[plan.level_of(i)];
+            for (std::size_t c = 0; c < C; ++c) {
+                const auto value = [&](Index place) -> float& {
+                    return values[std::size_t(place) * C + c];
+                };
+                const Detail d { m * details[c][i].t, m * details[c][i].u };
+                const float s = value(k.s);
+                const float t = interpolate(s, value(k.at), value(k.bt), k.wat, k.wbt);
+                const float u = interpolate(s, value(k.au), value(k.bu), k.wau, k.wbu);
+                value(k.u) = u + d.u;
+                value(k.s) = t + d.t;
+            }
+        });
     });
-    const std::vector<float>* residual = more.back() != 0.0f ? &bands.residual : nullptr;
-    std::vector<float> samples = to_picture(data.hierarchy, values.data(), exponent, residual, more.back());
-    const float* p = static_cast<const float*>(data.source.localpixels()) + channel;
-    for (float& sample : samples) {
-        sample += *p;
-        p += data.source.nchannels();
+}
+
+/// What the amplified details of C channels add to them, as rasters of mesh pixels.
+template<int C>
+void added_details(ProgressiveImage::Data& data, const PlannedChannels& channels, const std::vector<float>& more,
+                   const ParallelFor& parallel, Channels& results)
+{
+    const SweepPlan& plan = *channels.plan;
+    const Hierarchy& hierarchy = data.hierarchy;
+    Scratch values(data, plan.places() * C);
+    for (Index v = 0; v < hierarchy.base_vertices(); ++v)
+        std::fill_n((*values).begin() + std::ptrdiff_t(plan.base_place(v)) * C, C, 0.0f);
+    sweep_details<C>(channels, more, parallel, (*values).data());
+    float* samples[C];
+    for (std::size_t c = 0; c < C; ++c) {
+        results[c].resize(hierarchy.mesh_pixels());
+        samples[c] = results[c].data();
     }
-    return samples;
+    plan.scatter_channels<C>(hierarchy, (*values).data(), samples, parallel);
+}
+
+/// The picture with its details amplified. What that adds is added to the picture rather than synthesised with it, so that
+/// a gain of 1 changes no bit.
+void enhance_by(ProgressiveImage::Data& data, const PlannedChannels& planned, const ChannelBands& channels,
+                const std::vector<float>& more, const ParallelFor& parallel, Channels& results)
+{
+    results.resize(channels.bands.size());
+    if (results.size() == 3)
+        added_details<3>(data, planned, more, parallel, results);
+    else if (results.size() == 2)
+        added_details<2>(data, planned, more, parallel, results);
+    else
+        added_details<1>(data, planned, more, parallel, results);
+    for (std::size_t c = 0; c < results.size(); ++c) {
+        const std::vector<float>& residual = channels.bands[c].residual;
+        if (more.back() != 0.0f && !residual.empty())
+            in_batches(parallel, residual.size(), [&](std::size_t i) { results[c][i] += more.back() * residual[i]; });
+        crop_to_picture(data.hierarchy, results[c]);
+        const float* source = static_cast<const float*>(data.source.localpixels()) + data.colour.channel(int(c));
+        const std::size_t stride = std::size_t(data.source.nchannels());
+        in_batches(parallel, results[c].size(), [&](std::size_t i) {
+            float& sample = results[c][i];
+            if (channels.exponent != 0)
+                sample = std::ldexp(sample, channels.exponent);
+            sample += source[i * stride];
+        });
+    }
 }
 
 bool by_position(ProgressiveImage::Data& data, const DetailEnhanceOptions& options, const ParallelFor& parallel,
@@ -120,14 +172,11 @@ bool by_position(ProgressiveImage::Data& data, const DetailEnhanceOptions& optio
                            options.gain, levels);
     else if (!parse_curve(data.hierarchy, options.curve, curve, error))
         return false;
-    const std::vector<float> more = gains_less_one(curve, levels);
     const ChannelBands* channels = data.channel_bands(parallel, error);
-    if (channels == nullptr)
+    const auto planned = channels != nullptr ? data.planned_channels(parallel, error) : nullptr;
+    if (planned == nullptr)
         return false;
-    results.resize(channels->bands.size());
-    run(parallel, results.size(), [&](std::size_t i) {
-        results[i] = enhanced(data, data.colour.channel(int(i)), channels->bands[i], channels->exponent, more);
-    });
+    enhance_by(data, *planned, *channels, gains_less_one(curve, levels), parallel, results);
     return true;
 }
 
@@ -139,7 +188,8 @@ bool by_strength(ProgressiveImage::Data& data, const DetailEnhanceOptions& optio
         error = "from, to and curve: expected without strength, noise and log";
         return false;
     }
-    const SmoothingData& smoothing = data.smoothing(options.log);
+    const std::shared_ptr<const SmoothingData> kept = data.smoothing(options.log, parallel);
+    const SmoothingData& smoothing = *kept;
     SmoothingOptions smoothing_options;
     smoothing_options.parallel = parallel;
     smoothing_options.strength = find_strength(options, smoothing);
@@ -153,15 +203,15 @@ bool by_strength(ProgressiveImage::Data& data, const DetailEnhanceOptions& optio
 }
 
 /// Keeps at least a quarter of the light of the source at every pixel, however much its details are amplified.
-void shade(const ProgressiveImage::Data& data, Channels& results)
+void shade(const ProgressiveImage::Data& data, const ParallelFor& parallel, Channels& results)
 {
+    const std::size_t stride = std::size_t(data.source.nchannels());
     for (std::size_t c = 0; c < results.size(); ++c) {
-        const float* p = static_cast<const float*>(data.source.localpixels()) + data.colour.channel(int(c));
-        for (float& sample : results[c]) {
-            if (*p > 0.0f)
-                sample = shaded(sample, *p);
-            p += data.source.nchannels();
-        }
+        const float* source = static_cast<const float*>(data.source.localpixels()) + data.colour.channel(int(c));
+        in_batches(parallel, results[c].size(), [&](std::size_t i) {
+            if (source[i * stride] > 0.0f)
+                results[c][i] = shaded(results[c][i], source[i * stride]);
+        });
     }
 }
 
@@ -176,7 +226,7 @@ bool on_hierarchy::detail_enhance(ImageBuf& dst, const ProgressiveImage& src, co
         if (!(by_contrast ? by_strength : by_position)(data, options, parallel, result.channels, error))
             return false;
         if (is_scene_linear(data))
-            shade(data, result.channels);
+            shade(data, parallel, result.channels);
         bound_below(data, parallel, result.channels);
         return true;
     };

@@ -54,7 +54,8 @@ bool by_position(ProgressiveImage::Data& data, const FeatureLowpassOptions& opti
 void by_strength(ProgressiveImage::Data& data, const FeatureLowpassOptions& options, const ParallelFor& parallel,
                  Channels& results)
 {
-    const SmoothingData& smoothing = data.smoothing(options.log);
+    const std::shared_ptr<const SmoothingData> kept = data.smoothing(options.log, parallel);
+    const SmoothingData& smoothing = *kept;
     SmoothingOptions smoothing_options;
     smoothing_options.strength = find_strength(options, smoothing);
     smoothing_options.parallel = parallel;

@@ -7,8 +7,9 @@
 
 namespace pimg {
 
-PlannedBands::PlannedBands(SweepPlan&& made, const Bands& bands, const ParallelFor& parallel)
-    : plan(std::move(made)),
+PlannedBands::PlannedBands(std::shared_ptr<const SweepPlan> made, const Bands& bands, const ParallelFor& parallel)
+    : shared(std::move(made)),
+      plan(*shared),
       base(bands.base),
       details(plan.in_order(bands.details, parallel))
 {

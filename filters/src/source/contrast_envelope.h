@@ -2,6 +2,7 @@
 // The contrast that details belong to, by which they are compressed.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include <pimg/bands.h>
@@ -14,11 +15,12 @@ namespace pimg {
 
 /// Bands ready to be swept again and again: details in the order of a plan.
 struct PlannedBands {
-    SweepPlan plan;
+    std::shared_ptr<const SweepPlan> shared;
+    const SweepPlan& plan;
     std::vector<float> base;
     std::vector<Detail> details;
 
-    PlannedBands(SweepPlan&& plan, const Bands& bands, const ParallelFor& parallel);
+    PlannedBands(std::shared_ptr<const SweepPlan> plan, const Bands& bands, const ParallelFor& parallel);
 };
 
 /// What decides the gain of every split, in the order of the plan.

@@ -137,7 +137,8 @@ Status look_from_afar(const LogLuminance& luminance, const ParallelFor& parallel
     const Status status =
         simplify({ means.width, means.height, { { means.samples.data() } } }, options, overview.hierarchy, bands);
     if (status)
-        overview.bands = std::make_unique<PlannedBands>(SweepPlan(overview.hierarchy, parallel), bands[0], parallel);
+        overview.bands = std::make_unique<PlannedBands>(std::make_shared<SweepPlan>(overview.hierarchy, parallel),
+                                                        bands[0], parallel);
     return status;
 }
 

@@ -11,6 +11,7 @@
 
 #include <pimg/detail/format.h>
 #include <pimg/detail/parallel.h>
+#include <pimg/detail/stop.h>
 #include <pimg/threads.h>
 
 #include "base/float_copy.h"
@@ -239,7 +240,7 @@ Status ProgressiveImage::Data::adopt(const std::vector<Raster>& channels, const 
 
 const LogBands* ProgressiveImage::Data::log_bands(const ParallelFor& parallel, std::string& error)
 {
-    std::lock_guard<std::mutex> lock(m_mutex);
+    const std::unique_lock<std::mutex> lock = lock_or_stop(m_mutex);
     if (m_log != nullptr)
         return m_log.get();
     auto log = std::make_unique<LogBands>();
@@ -258,21 +259,10 @@ const LogBands* ProgressiveImage::Data::log_bands(const ParallelFor& parallel, s
 
 const NoiseModel& ProgressiveImage::Data::noise(const ParallelFor& parallel)
 {
-    std::lock_guard<std::mutex> lock(m_mutex);
+    const std::unique_lock<std::mutex> lock = lock_or_stop(m_mutex);
     if (!m_noise)
         m_noise = estimate_noise(m_log->luminance, parallel);
     return *m_noise;
-}
-
-std::shared_ptr<const PlannedBands> ProgressiveImage::Data::planned_log_bands(const ParallelFor& parallel)
-{
-    std::lock_guard<std::mutex> lock(m_mutex);
-    if (m_log_sweeps < 2) {
-        SweepPlan plan = m_log_sweeps == 0 ? SweepPlan::unplanned(hierarchy) : SweepPlan(hierarchy, parallel);
-        m_planned_log = std::make_shared<const PlannedBands>(std::move(plan), *m_log->bands, parallel);
-        ++m_log_sweeps;
-    }
-    return m_planned_log;
 }
 
 bool ProgressiveImage::Data::are_channels_the_guide() const
@@ -282,7 +272,7 @@ bool ProgressiveImage::Data::are_channels_the_guide() const
 
 const ChannelBands* ProgressiveImage::Data::channel_bands(const ParallelFor& parallel, std::string& error)
 {
-    std::lock_guard<std::mutex> lock(m_mutex);
+    const std::unique_lock<std::mutex> lock = lock_or_stop(m_mutex);
     if (m_channels != nullptr)
         return m_channels.get();
     auto channels = std::make_unique<ChannelBands>();
@@ -313,19 +303,10 @@ const ChannelBands* ProgressiveImage::Data::channel_bands(const ParallelFor& par
     return m_channels.get();
 }
 
-const SmoothingData& ProgressiveImage::Data::smoothing(bool log)
-{
-    std::lock_guard<std::mutex> lock(m_mutex);
-    std::unique_ptr<SmoothingData>& cached = m_smoothing[log ? 1 : 0];
-    if (cached == nullptr)
-        cached = std::make_unique<SmoothingData>(prepare_smoothing(*this, log));
-    return *cached;
-}
-
 const Overview* ProgressiveImage::Data::overview(const ParallelFor& parallel, std::string& error)
 {
     const LogBands* log = log_bands(parallel, error);
-    std::lock_guard<std::mutex> lock(m_mutex);
+    const std::unique_lock<std::mutex> lock = lock_or_stop(m_mutex);
     if (log == nullptr || m_overview != nullptr)
         return m_overview.get();
     auto overview = std::make_unique<Overview>();
@@ -340,7 +321,7 @@ std::shared_ptr<const Envelope> ProgressiveImage::Data::envelope(const std::shar
                                                                  const EnvelopeOptions& how,
                                                                  const ParallelFor& parallel)
 {
-    std::lock_guard<std::mutex> lock(m_mutex);
+    const std::unique_lock<std::mutex> lock = lock_or_stop(m_mutex);
     if (m_envelope_bands != planned || !(m_envelope_options == how)) {
         m_envelope = std::make_shared<const Envelope>(contrast_envelope(*planned, how, parallel));
         m_envelope_bands = planned;
@@ -351,7 +332,7 @@ std::shared_ptr<const Envelope> ProgressiveImage::Data::envelope(const std::shar
 
 std::vector<float> ProgressiveImage::Data::take_scratch()
 {
-    std::lock_guard<std::mutex> lock(m_mutex);
+    const std::lock_guard<std::mutex> lock(m_scratch_mutex);
     std::vector<float> scratch;
     if (!m_scratch.empty()) {
         scratch = std::move(m_scratch.back());
@@ -363,29 +344,35 @@ std::vector<float> ProgressiveImage::Data::take_scratch()
 void ProgressiveImage::Data::keep_scratch(std::vector<float>&& scratch)
 {
     constexpr std::size_t kKept = 2;
-    std::lock_guard<std::mutex> lock(m_mutex);
+    const std::lock_guard<std::mutex> lock(m_scratch_mutex);
     if (m_scratch.size() < kKept)
         m_scratch.push_back(std::move(scratch));
 }
 
 std::size_t ProgressiveImage::Data::memory()
 {
-    std::lock_guard<std::mutex> lock(m_mutex);
+    const std::unique_lock<std::mutex> lock = lock_or_stop(m_mutex);
     std::size_t total = spec.image_pixels() * std::size_t(spec.nchannels) * sizeof(float) + hierarchy.memory()
         + bytes(m_log_bands) + specials.capacity() * sizeof(SpecialSample);
     for (const Bands& bands : guide_bands)
         total += bytes(bands);
     if (m_log != nullptr)
         total += m_log->luminance.guide.samples.capacity() * sizeof(float);
+    if (m_plan != nullptr)
+        total += m_plan->memory();
     if (m_planned_log != nullptr)
-        total += m_planned_log->plan.memory() + m_planned_log->details.capacity() * sizeof(Detail);
+        total += m_planned_log->details.capacity() * sizeof(Detail);
+    if (m_planned_channels != nullptr)
+        for (const std::vector<Detail>& details : m_planned_channels->ordered)
+            total += details.capacity() * sizeof(Detail);
     if (m_channels != nullptr)
         for (const Bands& bands : m_channels->bands)
             total += bytes(bands);
-    for (const std::unique_ptr<SmoothingData>& smoothing : m_smoothing)
+    for (const std::shared_ptr<SmoothingData>& smoothing : m_smoothing)
         total += smoothing != nullptr ? smoothing->source.memory() : 0;
     if (m_regions != nullptr)
         total += m_regions->memory();
+    const std::lock_guard<std::mutex> scratch_lock(m_scratch_mutex);
     for (const std::vector<float>& scratch : m_scratch)
         total += scratch.capacity() * sizeof(float);
     if (m_envelope != nullptr)

@@ -32,6 +32,13 @@ struct ChannelBands {
     int exponent = 0;
 };
 
+/// The details of all colour channels, ready to be swept together.
+struct PlannedChannels {
+    std::shared_ptr<const SweepPlan> plan;
+    std::vector<std::vector<Detail>> ordered;  ///< empty if the plan's order is the hierarchy's
+    std::vector<const Detail*> details;        ///< of each channel, in the order of the plan
+};
+
 struct ProgressiveImage::Data {
     OIIO::ImageBuf source;
     OIIO::ImageSpec spec;
@@ -50,12 +57,18 @@ struct ProgressiveImage::Data {
     /// The noise of the picture, after log_bands(). Estimated at the first call: only hdr_compress asks for it.
     const NoiseModel& noise(const ParallelFor& parallel);
 
+    /// Says that sweeps will be many: the following then make a sweep plan at the first call.
+    void expect_retunes();
+
     /// The same bands ready for another sweep, after log_bands(). A sweep plan is made at the second call, from which
     /// on it saves time.
     std::shared_ptr<const PlannedBands> planned_log_bands(const ParallelFor& parallel);
 
-    /// What smoothing by strength needs of the channels, or, if `log`, of their logarithms. Kept.
-    const SmoothingData& smoothing(bool log);
+    /// Likewise the details of channel_bands().
+    std::shared_ptr<const PlannedChannels> planned_channels(const ParallelFor& parallel, std::string& error);
+
+    /// Likewise what smoothing by strength needs of the channels, or, if `log`, of their logarithms.
+    std::shared_ptr<const SmoothingData> smoothing(bool log, const ParallelFor& parallel);
 
     /// What compression and exposure are found from. Kept; null, with an error, like the bands.
     const Overview* overview(const ParallelFor& parallel, std::string& error);
@@ -85,13 +98,20 @@ struct ProgressiveImage::Data {
 
 private:
     bool are_channels_the_guide() const;
+    bool is_to_be_planned(int& sweeps) const { return ++sweeps > 1 || m_expects_retunes || m_plan; }
+    std::shared_ptr<const SweepPlan> plan(const ParallelFor& parallel);
 
     std::mutex m_mutex;
+    bool m_expects_retunes = false;
+    std::shared_ptr<const SweepPlan> m_plan;
     std::unique_ptr<LogBands> m_log;
     std::optional<NoiseModel> m_noise;
     std::unique_ptr<ChannelBands> m_channels;
-    std::unique_ptr<SmoothingData> m_smoothing[2];  ///< as stored, logarithms
-    float m_guide_scale = 0.0f;                     ///< see StoredGuide; of luma and rgb guides
+    std::shared_ptr<const PlannedChannels> m_planned_channels;
+    int m_channel_sweeps = 0;
+    std::shared_ptr<SmoothingData> m_smoothing[2];  ///< as stored, logarithms
+    int m_smoothing_sweeps[2] = { 0, 0 };
+    float m_guide_scale = 0.0f;  ///< see StoredGuide; of luma and rgb guides
     bool m_guide_clipped = false;
     Bands m_log_bands;  ///< if they are not the guide's
     std::shared_ptr<const PlannedBands> m_planned_log;
@@ -101,6 +121,7 @@ private:
     EnvelopeOptions m_envelope_options;
     std::shared_ptr<const Envelope> m_envelope;
     std::shared_ptr<const RegionTree> m_regions;
+    std::mutex m_scratch_mutex;  ///< held for moments only
     std::vector<std::vector<float>> m_scratch;
 };
 

@@ -2,6 +2,7 @@
 // What segmentation keeps of a progressive image: the merges of its pieces.
 #include <algorithm>
 
+#include <pimg/detail/stop.h>
 #include <pimg/dual_pieces.h>
 #include <pimg/regions.h>
 
@@ -71,7 +72,7 @@ bool uniform_pieces(const Hierarchy& hierarchy, const Channels& lab, std::vector
 std::shared_ptr<const RegionTree> ProgressiveImage::Data::region_tree(std::size_t regions, const ParallelFor& parallel,
                                                                       std::string& error)
 {
-    std::lock_guard<std::mutex> lock(m_mutex);
+    const std::unique_lock<std::mutex> lock = lock_or_stop(m_mutex);
     const std::size_t pixels = spec.image_pixels();
     if (m_regions != nullptr && (m_regions->leaves() >= kPiecesPerRegion * regions || m_regions->leaves() == pixels))
         return m_regions;
