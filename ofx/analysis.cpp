@@ -2,12 +2,16 @@
 #include "analysis.h"
 
 #include <cmath>
+#include <functional>
+#include <set>
 
 #include <pimg/detail/format.h>
+#include <pimg/detail/stop.h>
 #include <pimg/imagebufalgo.h>
 
 #include "colour_space.h"
 #include "shot.h"
+#include "watch.h"
 
 namespace pimg_ofx {
 
@@ -19,9 +23,15 @@ using pimg::HdrCompressOptions;
 /// The most frames of a shot; pimgtool has the same limit.
 constexpr int kMostFrames = 100000;
 
+/// What is found in a frame.
+struct Findings {
+    HdrCompressOptions options;  ///< of the frame, with everything that was 0 written in
+    float light = 0.0f;          ///< median luminance; 0: nothing is lit
+};
+
 /// Reads the options of a frame and fills in everything that is found from its picture. `anew`: dmax, key and white are
-/// found, too, even if they are given.
-bool find(const Instance& instance, OfxTime time, bool anew, HdrCompressOptions& options, std::string& error)
+/// found, too, even if they are given. May throw pimg::Stopped in a StopScope.
+bool find(const Instance& instance, OfxTime time, bool anew, Findings& found, std::string& error)
 {
     OfxRectD region {};
     const bool has_region = instance.source_region(time, region);
@@ -31,13 +41,35 @@ bool find(const Instance& instance, OfxTime time, bool anew, HdrCompressOptions&
         return false;
     }
     pimg::BuildOptions build;
+    HdrCompressOptions& options = found.options;
     if (!source_space(instance, time, image.depth(), build.incolorspace, error)
         || !pimg::set_options(options, instance.options(Owner::filter, time), error))
         return false;
     if (anew)
         options.dmax = options.key = options.white = 0.0f;
     const int threads = instance.host().threads();
-    return pimg::ImageBufAlgo::resolve_hdr_compress(picture_of(image, threads), options, error, build, threads);
+    const OIIO::ImageBuf picture = picture_of(image, threads);
+    return pimg::median_light(picture, build.incolorspace, found.light, error)
+        && pimg::ImageBufAlgo::resolve_hdr_compress(picture, options, error, build, threads);
+}
+
+/// find() that ends with nothing in `error` when goes_on() returns false.
+bool find_stoppably(const std::function<bool()>& goes_on, const Instance& instance, OfxTime time, bool anew,
+                    Findings& found, std::string& error)
+{
+    bool stopped = !goes_on();
+    bool fine = false;
+    if (!stopped) {
+        const pimg::StopScope scope(goes_on);
+        try {
+            fine = find(instance, time, anew, found, error);
+        } catch (const pimg::Stopped&) {
+        }
+        stopped = scope.stopped();
+    }
+    if (stopped)
+        error.clear();
+    return fine && !stopped;
 }
 
 /// Everything that is set between these two is one step for the user to undo.
@@ -88,24 +120,32 @@ bool frames_of(const Instance& instance, int& first, int& last, std::string& err
     return true;
 }
 
-bool measure(Instance& instance, int first, int last, pimg::Shot& shot, std::string& error)
+/// A shot as it was measured.
+struct MeasuredShot {
+    int first = 0, last = 0;
+    pimg::Shot figures;
+    std::set<int> dark;  ///< frames in which nothing is lit, and so nothing was measured
+};
+
+bool measure(Instance& instance, MeasuredShot& shot, std::string& error)
 {
-    for (int frame = first; frame <= last; ++frame) {
-        const Host& host = instance.host();
-        if (host.is_aborted(instance.handle())
-            || !host.progress(instance.handle(), double(frame - first) / double(last - first + 1))) {
-            error.clear();
+    Watch watch(instance, "Analysing the shot", true);
+    for (int frame = shot.first; frame <= shot.last; ++frame) {
+        const double done = double(frame - shot.first) / double(shot.last - shot.first + 1);
+        Findings found;
+        if (!find_stoppably([&] { return watch.goes_on(done); }, instance, frame, true, found, error))
             return false;
-        }
-        HdrCompressOptions options;
-        if (!find(instance, frame, true, options, error))
-            return false;
-        shot.add(frame, { options.dmax, options.key, options.white });
+        pimg::Anchors anchors;
+        if (found.light > 0.0f)
+            anchors = { found.options.dmax, found.options.key, found.options.white, found.light };
+        else
+            shot.dark.insert(frame);
+        shot.figures.add(frame, anchors);
     }
     return true;
 }
 
-void set_keys(Instance& instance, int first, int last, const pimg::Shot& shot, const pimg::ShotOptions& options)
+void set_keys(Instance& instance, const MeasuredShot& shot, const pimg::ShotOptions& options)
 {
     const OfxParameterSuiteV1& suite = instance.host().parameters();
     const Edit edit(instance, "Analyse shot");
@@ -115,9 +155,26 @@ void set_keys(Instance& instance, int first, int last, const pimg::Shot& shot, c
         if (parameter == nullptr)
             continue;
         suite.paramDeleteAllKeys(parameter);
-        for (int frame = first; frame <= last; ++frame)
-            suite.paramSetValueAtTime(parameter, OfxTime(frame), double(shot.anchors(frame, options).*member));
+        for (int frame = shot.first; frame <= shot.last; ++frame)
+            if (shot.dark.count(frame) == 0)
+                suite.paramSetValueAtTime(parameter, OfxTime(frame),
+                                          double(shot.figures.anchors(frame, options).*member));
     }
+}
+
+/// "3, 7-9": ascending numbers, those that follow each other as a range.
+std::string ranges_of(const std::set<int>& numbers)
+{
+    std::string text;
+    for (auto it = numbers.begin(); it != numbers.end();) {
+        const int first = *it;
+        int last = first;
+        while (++it != numbers.end() && *it == last + 1)
+            last = *it;
+        text += text.empty() ? "" : ", ";
+        text += last > first ? pimg::format("{}-{}", first, last) : pimg::format("{}", first);
+    }
+    return text;
 }
 
 }  // namespace
@@ -133,30 +190,35 @@ std::vector<std::string> found_keys()
 
 bool show_found(Instance& instance, OfxTime time, std::string& error)
 {
-    HdrCompressOptions options;
-    if (!find(instance, time, false, options, error))
+    Watch watch(instance, "Analysing the frame");
+    Findings found;
+    if (!find_stoppably([&] { return watch.goes_on(); }, instance, time, false, found, error))
         return false;
     const Edit edit(instance, "Analyse frame");
     for (const std::string& key : instance.effect().found)
         if (const OfxParamHandle parameter = instance.parameter(kFoundPrefix + key))
-            instance.host().parameters().paramSetValue(parameter, value_of(options, key));
+            instance.host().parameters().paramSetValue(parameter, value_of(found.options, key));
     return true;
 }
 
 bool analyse_shot(Instance& instance, std::string& error)
 {
-    int first = 0, last = 0;
+    MeasuredShot shot;
     pimg::ShotOptions options;
-    if (!frames_of(instance, first, last, error)
-        || !pimg::set_options(options, instance.options(Owner::shot, OfxTime(first)), error))
+    if (!frames_of(instance, shot.first, shot.last, error)
+        || !pimg::set_options(options, instance.options(Owner::shot, OfxTime(shot.first)), error)
+        || !pimg::Shot::check_cuts(options.cuts, error) || !measure(instance, shot, error))
         return false;
-    pimg::Shot shot;
-    instance.host().begin_progress(instance.handle(), "Analysing the shot");
-    const bool measured = measure(instance, first, last, shot, error);
-    instance.host().end_progress(instance.handle());
-    if (measured)
-        set_keys(instance, first, last, shot, options);
-    return measured;
+    if (int(shot.dark.size()) > shot.last - shot.first) {
+        error = "nothing is lit in any frame of the source: nothing was measured";
+        return false;
+    }
+    set_keys(instance, shot, options);
+    if (!shot.dark.empty())
+        instance.host().say(instance.handle(), kOfxMessageWarning,
+                            pimg::format("Analyse shot: nothing is lit in frame{} {}: not measured, and without keys",
+                                         shot.dark.size() > 1 ? "s" : "", ranges_of(shot.dark)));
+    return true;
 }
 
 OfxStatus instance_changed(Instance& instance, const Properties& in)

@@ -2,11 +2,15 @@
 #include "colour_space.h"
 
 #include <pimg/colour.h>
+#include <pimg/detail/colour_config.h>
 #include <pimg/detail/format.h>
 
 namespace pimg_ofx {
 
 namespace {
+
+/// The role of OpenColorIO's configurations that encoded pictures are decoded to.
+constexpr char kSceneLinearRole[] = "scene_linear";
 
 /// The user's choice; null for none.
 const SpaceChoice* choice_of(const Instance& instance, OfxTime time)
@@ -16,11 +20,16 @@ const SpaceChoice* choice_of(const Instance& instance, OfxTime time)
     return index > 0 && index < int(choices.size()) ? &choices[std::size_t(index)] : nullptr;
 }
 
-bool is_managed(const Instance& instance)
+std::string style_of(const Instance& instance)
 {
     const std::string style =
         instance.host().of_effect(instance.handle()).text(kOfxImageEffectPropColourManagementStyle);
-    return !style.empty() && style != kOfxImageEffectColourManagementNone;
+    return style != kOfxImageEffectColourManagementNone ? style : "";
+}
+
+bool is_managed(const Instance& instance)
+{
+    return !style_of(instance).empty();
 }
 
 bool is_known(const std::string& space, const OIIO::TypeDesc& depth, pimg::Colour& colour, std::string& error)
@@ -72,6 +81,30 @@ std::string space_of_host(const std::string& name)
     return name;
 }
 
+namespace {
+
+std::string named_config(const Instance& instance)
+{
+    if (style_of(instance) != kOfxImageEffectColourManagementOCIO)
+        return "";
+    return instance.host().of_effect(instance.handle()).text(kOfxImageEffectPropOCIOConfig);
+}
+
+bool can_read(const std::string& config, std::string& error)
+{
+    const pimg::ColourConfigScope scope(config);
+    return pimg::check_colour_config(error);
+}
+
+}  // namespace
+
+std::string host_config(const Instance& instance)
+{
+    std::string error;
+    const std::string config = named_config(instance);
+    return !config.empty() && can_read(config, error) ? config : "";
+}
+
 bool source_space(const Instance& instance, OfxTime time, const OIIO::TypeDesc& depth, std::string& space,
                   std::string& error)
 {
@@ -84,11 +117,19 @@ bool source_space(const Instance& instance, OfxTime time, const OIIO::TypeDesc& 
     const std::string named = instance.of_clip(instance.source_clip()).text(kOfxImageClipPropColourspace);
     if (!is_managed(instance) || named.empty() || named == kOfxColourspaceOfxRaw)
         return true;
+    // A configuration may have spaces called like those of OpenFX's own.
+    space = named;
+    if (!host_config(instance).empty() && is_known(space, depth, colour, error))
+        return true;
     space = space_of_host(named);
     if (space.empty() || is_known(space, depth, colour, error))
         return true;
-    error = pimg::format("the host's colour space \"{}\" is unknown: choose one, or a host space that is scene-linear",
-                         named);
+    const std::string config = named_config(instance);
+    if (!config.empty() && !can_read(config, error))
+        return false;
+    error =
+        pimg::format("the host's colour space \"{}\" is unknown: choose one, or a host space that is scene-linear ({})",
+                     named, error);
     return false;
 }
 
@@ -96,8 +137,12 @@ bool prefer_spaces(const Instance& instance, OfxTime time, const Properties& out
 {
     if (!is_managed(instance) || choice_of(instance, time) != nullptr)
         return false;
-    return out.set((kClipPreferredColourspaces + std::string(kOfxImageEffectSimpleSourceClipName)).c_str(),
-                   std::string(kOfxColourspaceOfxSceneLinear));
+    const std::string name = kClipPreferredColourspaces + std::string(kOfxImageEffectSimpleSourceClipName);
+    int i = 0;
+    // The role of a configuration comes first; the other name is good in every style.
+    if (!host_config(instance).empty() && out.set(name.c_str(), std::string(kSceneLinearRole), i))
+        ++i;
+    return out.set(name.c_str(), std::string(kOfxColourspaceOfxSceneLinear), i);
 }
 
 OfxStatus output_space(const Instance& instance, OfxTime time, const Properties& out)
@@ -112,7 +157,7 @@ OfxStatus output_space(const Instance& instance, OfxTime time, const Properties&
     pimg::Colour colour;
     if (filter.output == pimg::FilterOutput::light && source_space(instance, time, OIIO::TypeDesc::FLOAT, space, error)
         && is_known(space, OIIO::TypeDesc::FLOAT, colour, error) && colour.encoded())
-        name = linear_space(space);
+        name = host_config(instance).empty() ? linear_space(space) : kSceneLinearRole;
     return out.set(kOfxImageClipPropColourspace, name) ? kOfxStatOK : kOfxStatReplyDefault;
 }
 

@@ -8,6 +8,10 @@
 
 namespace pimg_ofx {
 
+/// The OpenColorIO configuration of a host that works with one, for a pimg::ColourConfigScope; "" if it does not, or if it
+/// cannot be read.
+std::string host_config(const Instance& instance);
+
 /// A name for the option incolorspace; "" for what pimg takes pixels of that depth as: scene-linear for floats, sRGB for
 /// whole numbers. False, with a line in `error`, if the user chose a name that is unknown.
 bool source_space(const Instance& instance, OfxTime time, const OIIO::TypeDesc& depth, std::string& space,

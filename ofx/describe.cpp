@@ -251,9 +251,12 @@ OfxStatus describe(const Host& host, const Effect& effect, OfxImageEffectHandle 
     p.set(kOfxImageEffectPropSupportsMultipleClipDepths, 0);
     p.set(kOfxImageEffectPropSupportsMultipleClipPARs, 0);
     p.set(kOfxImageEffectPluginPropFieldRenderTwiceAlways, 1);
-    if (host.of_host().texts(kOfxImageEffectPropColourManagementStyle).empty())
+    const std::string style = host.of_host().text(kOfxImageEffectPropColourManagementStyle);
+    if (style.empty())
         return kOfxStatOK;
-    p.set(kOfxImageEffectPropColourManagementStyle, std::string(kOfxImageEffectColourManagementCore));
+    const bool ocio = style == kOfxImageEffectColourManagementOCIO;
+    p.set(kOfxImageEffectPropColourManagementStyle,
+          std::string(ocio ? kOfxImageEffectColourManagementOCIO : kOfxImageEffectColourManagementCore));
     p.set(kOfxImageEffectPropColourManagementAvailableConfigs, std::string(kOfxConfigIdentifier));
     return kOfxStatOK;
 }

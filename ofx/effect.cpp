@@ -44,7 +44,7 @@ Effect effect_of(const pimg::Filter& filter)
     if (filter.name == std::string("hdr_compress")) {
         effect.found = found_keys();
         for (const pimg::OptionInfo& option : pimg::describe_options<pimg::ShotOptions>())
-            if (option.key == "mode" || option.key == "radius")
+            if (option.key == "mode" || option.key == "radius" || option.key == "cuts")
                 effect.parameters.push_back(parameter(option, Owner::shot));
     }
     return effect;

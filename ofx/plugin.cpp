@@ -6,6 +6,7 @@
 #include <new>
 #include <utility>
 
+#include <pimg/detail/colour_config.h>
 #include <pimg/version.h>
 
 #include "analysis.h"
@@ -89,6 +90,7 @@ OfxStatus identity(const Instance& instance, const Properties& in, const Propert
 /// Actions on an instance that has been created.
 OfxStatus on_instance(const std::string& action, Instance& instance, const Properties& in, const Properties& out)
 {
+    const pimg::ColourConfigScope colours(host_config(instance));
     if (action == kOfxImageEffectActionRender)
         return render(instance, in);
     if (action == kOfxImageEffectActionIsIdentity)

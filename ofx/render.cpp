@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render.h"
 
-#include <chrono>
-
 #include <pimg/detail/format.h>
+#include <pimg/detail/retuning.h>
+#include <pimg/detail/stop.h>
 #include <pimg/display.h>
 #include <pimg/labels.h>
 
@@ -12,54 +12,6 @@
 namespace pimg_ofx {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-/// How often the host is asked during a build whether to stop, which is to take effect within 50 ms.
-constexpr std::chrono::milliseconds kBetweenQuestions(5);
-
-/// Builds that take less time show no progress bar.
-constexpr std::chrono::milliseconds kUnnoticed(500);
-
-/// Follows a build on the thread of the render action: asks the host whether to stop, and shows how far it is.
-class Watch {
-public:
-    explicit Watch(Instance& instance) : m_instance(instance) { }
-    Watch(const Watch&) = delete;
-    Watch& operator=(const Watch&) = delete;
-    ~Watch()
-    {
-        if (!m_shows)
-            return;
-        m_instance.host().end_progress(m_instance.handle());
-        m_instance.end_of_progress();
-    }
-
-    bool goes_on(float done)
-    {
-        const Clock::time_point now = Clock::now();
-        if (m_stopped || now - m_asked < kBetweenQuestions)
-            return !m_stopped;
-        m_asked = now;
-        const Host& host = m_instance.host();
-        m_stopped = host.is_aborted(m_instance.handle());
-        if (!m_shows && now - m_begun > kUnnoticed && m_instance.may_show_progress()) {
-            m_shows = true;
-            host.begin_progress(m_instance.handle(), "Building the hierarchy");
-        }
-        if (m_shows && !host.progress(m_instance.handle(), double(done)))
-            m_stopped = true;
-        return !m_stopped;
-    }
-
-    bool stopped() const { return m_stopped; }
-
-private:
-    Instance& m_instance;
-    const Clock::time_point m_begun = Clock::now();
-    Clock::time_point m_asked {};
-    bool m_shows = false, m_stopped = false;
-};
 
 std::string joined(const pimg::OptionTexts& texts)
 {
@@ -130,9 +82,15 @@ std::shared_ptr<const KeptResult> run(const pimg::BoundFilter& filter, const pim
 /// One render action.
 class Render {
 public:
-    Render(Instance& instance, const Properties& in) : m_instance(instance), m_in(in), m_request(request_of(in)) { }
+    Render(Instance& instance, const Properties& in, Watch& watch)
+        : m_instance(instance),
+          m_in(in),
+          m_watch(watch),
+          m_request(request_of(in))
+    {
+    }
 
-    /// False with a line in `error`, or with none if it was stopped.
+    /// False with a line in `error`, which says nothing if it was stopped.
     bool operator()(std::string& error)
     {
         const Host& host = m_instance.host();
@@ -154,7 +112,7 @@ public:
             return false;
         std::string key;
         const std::shared_ptr<const KeptHierarchy> hierarchy =
-            hierarchy_of(m_instance, source, m_request.time, key, error);
+            hierarchy_of({ m_instance, m_watch, m_request.time }, source, key, error);
         if (hierarchy == nullptr)
             return false;
         const bool done = make(filter, *hierarchy, source, output, key + joined(options), error);
@@ -178,7 +136,7 @@ private:
         const std::string key =
             std::string(m_instance.effect().filter->name) + " " + output.depth().c_str() + " " + options;
         return std::static_pointer_cast<const KeptResult>(shared_cache().get(
-            key, make, [&] { return m_instance.host().is_aborted(m_instance.handle()); }, error));
+            key, make, [&] { return !m_watch.goes_on(); }, error));
     }
 
     bool make(const pimg::BoundFilter& filter, const KeptHierarchy& hierarchy, const Image& source, const Image& output,
@@ -215,48 +173,56 @@ private:
 
     Instance& m_instance;
     const Properties& m_in;
+    Watch& m_watch;
     const Request m_request;
 };
 
 }  // namespace
 
-std::shared_ptr<const KeptHierarchy> hierarchy_of(Instance& instance, const Image& image, OfxTime time,
-                                                  std::string& key, std::string& error)
+std::shared_ptr<const KeptHierarchy> hierarchy_of(const Viewer& viewer, const Image& image, std::string& key,
+                                                  std::string& error)
 {
+    const Instance& instance = viewer.instance;
     std::string space;
     pimg::BuildOptions options;
-    const pimg::OptionTexts texts = instance.options(Owner::build, time);
-    if (!source_space(instance, time, image.depth(), space, error) || !pimg::set_options(options, texts, error))
+    const pimg::OptionTexts texts = instance.options(Owner::build, viewer.time);
+    if (!source_space(instance, viewer.time, image.depth(), space, error) || !pimg::set_options(options, texts, error))
         return nullptr;
     options.incolorspace = space;
     const int threads = instance.host().threads();
     const OfxRectI box = image.picture();
-    key = pimg::format("{:016x} {}x{}x{} {}{} {}{}", fingerprint(image, threads), box.x2 - box.x1, box.y2 - box.y1,
+    key = pimg::format("{:016x} {}x{}x{} {}{} {} {}{}", fingerprint(image, threads), box.x2 - box.x1, box.y2 - box.y1,
                        image.channels(), image.depth().c_str(), image.is_unpremultiplied() ? " straight" : "", space,
-                       joined(texts));
+                       host_config(instance), joined(texts));
     const auto make = [&](std::string& why) -> std::shared_ptr<const Kept> {
-        Watch watch(instance);
         auto kept = std::make_shared<KeptHierarchy>();
         const auto progress = [&](float done) {
-            return watch.goes_on(done);
+            return viewer.watch.goes_on(double(done));
         };
-        if (kept->image.build(picture_of(image, threads), options, threads, progress))
+        if (kept->image.build(picture_of(image, threads), options, threads, progress)) {
+            pimg::expect_retunes(kept->image);
             return kept;
-        why = watch.stopped() ? "" : kept->image.error();
+        }
+        why = kept->image.error();
         return nullptr;
     };
     return std::static_pointer_cast<const KeptHierarchy>(shared_cache().get(
-        key, make, [&] { return instance.host().is_aborted(instance.handle()); }, error));
+        key, make, [&] { return !viewer.watch.goes_on(); }, error));
 }
 
 OfxStatus render(Instance& instance, const Properties& in)
 {
+    Watch watch(instance, "Building the hierarchy");
     std::string error;
-    if (Render(instance, in)(error)) {
-        instance.be_content();
-        return kOfxStatOK;
+    try {
+        const pimg::StopScope scope([&] { return watch.goes_on(); });
+        if (Render(instance, in, watch)(error)) {
+            instance.be_content();
+            return kOfxStatOK;
+        }
+    } catch (const pimg::Stopped&) {
     }
-    if (error.empty())
+    if (watch.stopped())
         return kOfxStatOK;  // the host wanted to stop, and ignores the image
     instance.complain(error);
     return kOfxStatFailed;

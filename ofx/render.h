@@ -10,6 +10,7 @@
 #include "cache.h"
 #include "host/image.h"
 #include "instance.h"
+#include "watch.h"
 
 namespace pimg_ofx {
 
@@ -20,10 +21,17 @@ public:
     pimg::ProgressiveImage image;
 };
 
-/// The hierarchy of the source `image`, from the cache or built now with the instance's parameters at `time`; `key` is
-/// where it is in the cache. Null with a line in `error`, or with none if the host wants to stop.
-std::shared_ptr<const KeptHierarchy> hierarchy_of(Instance& instance, const Image& image, OfxTime time,
-                                                  std::string& key, std::string& error);
+/// Who wants to see a frame.
+struct Viewer {
+    Instance& instance;
+    Watch& watch;
+    OfxTime time;
+};
+
+/// The hierarchy of the source `image`, from the cache or built now with the instance's parameters; `key` is where it is in
+/// the cache. Null with a line in `error`, which says nothing if the host wants to stop. May throw pimg::Stopped then.
+std::shared_ptr<const KeptHierarchy> hierarchy_of(const Viewer& viewer, const Image& image, std::string& key,
+                                                  std::string& error);
 
 OfxStatus render(Instance& instance, const Properties& in);
 

@@ -200,6 +200,7 @@
     X(kOfxImageEffectColourManagementOCIO, "OfxImageEffectColourManagementOCIO")                                       \
     X(kOfxImageEffectPropColourManagementAvailableConfigs, "OfxImageEffectPropColourManagementAvailableConfigs")       \
     X(kOfxImageEffectPropColourManagementConfig, "OfxImageEffectPropColourManagementConfig")                           \
+    X(kOfxImageEffectPropOCIOConfig, "OfxImageEffectPropOCIOConfig")                                                   \
     X(kOfxImageClipPropColourspace, "OfxImageClipPropColourspace")                                                     \
     X(kOfxImageClipPropPreferredColourspaces, "OfxImageClipPropPreferredColourspaces")                                 \
     X(kOfxConfigIdentifier, "ofx-native-v1.5_aces-v1.3_ocio-v2.3")                                                     \

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <random>
 
 #include "host.h"
 
@@ -77,7 +78,10 @@ HostOptions host_options_of(const Words& words, const Footage& footage)
 {
     HostOptions options;
     options.depths = { footage.depth };
-    options.manages_colours = words.number("manages", 0) != 0;
+    if (!words.option("config").empty())
+        options.colour_style = kOfxImageEffectColourManagementOCIO;
+    else if (words.number("manages", 0) != 0)
+        options.colour_style = kOfxImageEffectColourManagementFull;
     return options;
 }
 
@@ -159,11 +163,18 @@ public:
     {
         if (!set_parameters(error, 0.0))
             return false;
-        if (m_words.number("manages", 0) != 0)
-            m_instance->effect().properties.set_values(kOfxImageEffectPropColourManagementStyle,
-                                                       { std::string(kOfxImageEffectColourManagementCore) });
-        m_instance->clip_preferences();
-        if (m_words.number("manages", 0) != 0) {
+        const std::string config = m_words.option("config");
+        const bool manages = !config.empty() || m_words.number("manages", 0) != 0;
+        PropertySet& properties = m_instance->effect().properties;
+        // What the effect knows is what the two agree on.
+        if (!manages)
+            properties.set_values(kOfxImageEffectPropColourManagementStyle,
+                                  { std::string(kOfxImageEffectColourManagementNone) });
+        else if (!config.empty())
+            properties.set_values(kOfxImageEffectPropOCIOConfig, { config });
+        m_instance->clip_preferences(m_words.option("space", "ACEScg"));
+        if (manages) {
+            std::printf("style: %s\n", properties.text(kOfxImageEffectPropColourManagementStyle).c_str());
             std::string space;
             const OfxStatus status = m_instance->output_colourspace(space);
             std::printf("output colourspace: %d %s\n", status, space.c_str());
@@ -180,18 +191,21 @@ public:
 
     bool render_once(OIIO::ImageBuf& picture, std::string& error)
     {
+        return render_once(picture, std::atof(m_words.option("abort", "-1").c_str()), error);
+    }
+
+    bool render_once(OIIO::ImageBuf& picture, double abort_after, std::string& error)
+    {
         RenderOptions options;
         options.time = time();
         options.tile = m_words.number("tile", 0);
         options.threads = m_words.number("threads", 1);
-        options.abort_after = m_words.number("abort", -1);
+        options.abort_after = abort_after;
         const std::string field = m_words.option("field", "none");
         options.field = field == "lower" ? kOfxImageFieldLower
             : field == "upper"           ? kOfxImageFieldUpper
                                          : kOfxImageFieldNone;
         const OfxStatus status = m_instance->render(options, picture);
-        std::printf("%.1f ms, %.1f of processors\n", 1000.0 * m_instance->render_seconds(),
-                    1000.0 * m_instance->processor_seconds());
         if (status != kOfxStatOK)
             error = "render returned " + std::to_string(status) + ": " + m_instance->effect().message;
         return status == kOfxStatOK;
@@ -294,6 +308,9 @@ bool render(const std::string& bundle, const Words& words, std::string& error)
         if (!session.set_parameters(error, repeats > 1 ? double(i) / (repeats - 1) : 0.0)
             || !session.render_once(picture, error))
             return false;
+        else
+            std::printf("%.1f ms, %.1f of processors\n", 1000.0 * session.instance().render_seconds(),
+                        1000.0 * session.instance().processor_seconds());
     if (count_images_out() != 0)
         violation("images were not given back");
     if (!session.target().empty() && !picture.write(session.target())) {
@@ -301,6 +318,52 @@ bool render(const std::string& bundle, const Words& words, std::string& error)
         return false;
     }
     return true;
+}
+
+namespace {
+
+/// Asks to stop at random moments of renders, and prints how long it took until they did.
+bool stop_renders(Session& session, bool purges, int moments, bool verbose, std::string& error)
+{
+    OIIO::ImageBuf picture = session.canvas();
+    const auto render = [&](double abort_after) {
+        if (purges)
+            session.instance().action(kOfxActionPurgeCaches, nullptr, nullptr);
+        return session.render_once(picture, abort_after, error);
+    };
+    // From the cache: when all is in it.
+    for (int i = purges ? 2 : 0; i < 3; ++i)
+        if (!render(-1.0))
+            return false;
+    const double whole = 1000.0 * session.instance().render_seconds();
+    std::mt19937 random(1);
+    std::vector<double> taken;
+    for (int i = 0; i < moments; ++i) {
+        const double moment = std::uniform_real_distribution<double>(0.0, whole)(random);
+        if (!render(moment))
+            return false;
+        taken.push_back(std::max(0.0, 1000.0 * session.instance().render_seconds() - moment));
+        if (verbose)
+            std::printf("%.1f: %.1f\n", moment, taken.back());
+    }
+    std::sort(taken.begin(), taken.end());
+    const auto share = [&](double q) {
+        return taken[std::size_t(q * double(taken.size() - 1))];
+    };
+    std::printf("%s: %.0f ms, stopped after %.1f ms (median), %.1f (9 of 10), %.1f (most)\n",
+                purges ? "with a build" : "from the cache", whole, share(0.5), share(0.9), taken.back());
+    return true;
+}
+
+}  // namespace
+
+bool stops(const std::string& bundle, const Words& words, std::string& error)
+{
+    Session session(bundle, words);
+    const int moments = std::max(1, words.number("moments", 30));
+    const bool verbose = words.number("verbose", 0) != 0;
+    return session.open(error) && session.prepare(error) && stop_renders(session, true, moments, verbose, error)
+        && stop_renders(session, false, moments, verbose, error);
 }
 
 }  // namespace test_host

@@ -21,6 +21,7 @@ struct Words {
 bool list(const std::string& bundle, const Words& words, std::string& error);      ///< identifiers and labels
 bool describe(const std::string& bundle, const Words& words, std::string& error);  ///< all properties of an effect
 bool render(const std::string& bundle, const Words& words, std::string& error);
+bool stops(const std::string& bundle, const Words& words, std::string& error);  ///< how long after it is asked to
 bool stress(const std::string& bundle, const Words& words, std::string& error);
 bool misuse(const std::string& bundle, const Words& words, std::string& error);
 

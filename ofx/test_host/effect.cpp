@@ -176,6 +176,12 @@ int count_images_out()
     return images_out;
 }
 
+bool& is_in_action()
+{
+    thread_local bool within = false;
+    return within;
+}
+
 HostImage*& output_of_this_thread()
 {
     thread_local HostImage* image = nullptr;
@@ -200,6 +206,7 @@ Effect::Effect()
         set.define(flag, 1, { 0 });
     set.define(kOfxImageEffectPluginRenderThreadSafety, 1, { Text() });
     set.define(kOfxImageEffectPropColourManagementStyle, 1, { Text(kOfxImageEffectColourManagementNone) });
+    set.define(kOfxImageEffectPropOCIOConfig, 1, { Text() });
 }
 
 void Effect::make_instance_of(const Effect& descriptor, const std::string& context, const Footage* footage)
@@ -289,6 +296,8 @@ OfxStatus region_of_definition(OfxImageClipHandle handle, OfxTime time, OfxRectD
 
 int is_aborted(OfxImageEffectHandle handle)
 {
+    if (!is_in_action())
+        violation("a thread that the host has not called asks whether to stop");
     const long long at = Effect::of(handle).abort_at;
     return at != 0 && std::chrono::steady_clock::now().time_since_epoch().count() >= at ? 1 : 0;
 }

@@ -87,6 +87,9 @@ struct Effect {
 /// Images of source clips that have not been given back.
 int count_images_out();
 
+/// Whether the host has called the plug-in on this thread.
+bool& is_in_action();
+
 /// The image that the render action on this thread writes to.
 HostImage*& output_of_this_thread();
 

@@ -60,8 +60,8 @@ Host::Host(const HostOptions& options)
                { Text(kOfxImageEffectContextFilter), Text(kOfxImageEffectContextGeneral) });
     set.define(kOfxParamHostPropMaxParameters, 1, { -1 }).define(kOfxParamHostPropMaxPages, 1, { -1 });
     set.define(kOfxParamHostPropPageRowColumnCount, 2, { 0, 0 });
-    if (options.manages_colours) {
-        set.define(kOfxImageEffectPropColourManagementStyle, 1, { Text(kOfxImageEffectColourManagementFull) });
+    if (!options.colour_style.empty()) {
+        set.define(kOfxImageEffectPropColourManagementStyle, 1, { options.colour_style });
         set.define(kOfxImageEffectPropColourManagementAvailableConfigs, 0, { Text(kOfxConfigIdentifier) });
     }
     m_host = { set.handle(), fetch_suite };
@@ -143,11 +143,14 @@ Instance::~Instance()
 
 OfxStatus Instance::action(const char* name, PropertySet* in, PropertySet* out)
 {
-    return m_plugin.mainEntry(name, m_effect.handle(), in != nullptr ? in->handle() : nullptr,
-                              out != nullptr ? out->handle() : nullptr);
+    is_in_action() = true;
+    const OfxStatus status = m_plugin.mainEntry(name, m_effect.handle(), in != nullptr ? in->handle() : nullptr,
+                                                out != nullptr ? out->handle() : nullptr);
+    is_in_action() = false;
+    return status;
 }
 
-OfxStatus Instance::clip_preferences()
+OfxStatus Instance::clip_preferences(const std::string& space)
 {
     PropertySet out;
     for (const auto& [name, clip] : m_effect.clips) {
@@ -165,8 +168,9 @@ OfxStatus Instance::clip_preferences()
     if (m_footage != nullptr && out.text(kClipComponents + std::string(kOfxImageEffectOutputClipName)) != wanted)
         violation("the output has other components than the source");
     for (auto& [name, clip] : m_effect.clips)
-        if (out.text(kClipPreferredColourspaces + name) == kOfxColourspaceOfxSceneLinear)
-            clip.properties.set_values(kOfxImageClipPropColourspace, { Text("ACEScg") });
+        if (out.text(kClipPreferredColourspaces + name) == kOfxColourspaceOfxSceneLinear
+            || out.text(kClipPreferredColourspaces + name) == "scene_linear")
+            clip.properties.set_values(kOfxImageClipPropColourspace, { space });
     return status;
 }
 
@@ -278,9 +282,10 @@ OfxStatus Instance::render(const RenderOptions& options, OIIO::ImageBuf& picture
     OfxStatus status = regions(options, windows[0]);
     if (!is_fine(status) || !is_fine(status = action(kOfxImageEffectActionBeginSequenceRender, &sequence, nullptr)))
         return status;
-    const std::chrono::nanoseconds wait = std::chrono::milliseconds(options.abort_after);
+    const auto wait = std::chrono::duration_cast<std::chrono::nanoseconds>(
+        std::chrono::duration<double, std::milli>(options.abort_after));
     m_effect.abort_at =
-        options.abort_after < 0 ? 0 : (std::chrono::steady_clock::now().time_since_epoch() + wait).count();
+        options.abort_after < 0.0 ? 0 : (std::chrono::steady_clock::now().time_since_epoch() + wait).count();
     std::atomic<std::size_t> next { 0 };
     std::atomic<int> worst { kOfxStatOK };
     const auto work = [&] {

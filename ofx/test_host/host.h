@@ -15,7 +15,7 @@ namespace test_host {
 struct HostOptions {
     std::set<std::string> without;  ///< suites that are missing
     std::vector<std::string> depths = { kOfxBitDepthByte, kOfxBitDepthShort, kOfxBitDepthFloat };
-    bool manages_colours = false;
+    std::string colour_style;  ///< in which it manages colours; "": it does not
     unsigned int threads = 2;  ///< that the multi-thread suite speaks of
 };
 
@@ -50,7 +50,7 @@ struct RenderOptions {
     int tile = 0;  ///< side of tiles in pixels; 0: the whole picture at once
     int threads = 1;
     std::string field = kOfxImageFieldNone;
-    int abort_after = -1;  ///< in milliseconds; -1: never
+    double abort_after = -1.0;  ///< in milliseconds; -1: never
 };
 
 /// An instance that lives as long as this.
@@ -69,7 +69,7 @@ public:
     double render_seconds() const { return m_seconds; }               ///< of the render actions of the last render()
     double processor_seconds() const { return m_processor_seconds; }  ///< of the whole process meanwhile
     OfxStatus press(const std::string& button, double time);
-    OfxStatus clip_preferences();
+    OfxStatus clip_preferences(const std::string& space);  ///< that clips get which ask for scene-linear ones
     OfxStatus output_colourspace(std::string& space);
     bool is_identity(double time);
     OfxStatus action(const char* name, PropertySet* in, PropertySet* out);

@@ -20,10 +20,14 @@ constexpr char kUsage[] = R"(usage: ofx_test_host BUNDLE COMMAND ...
       --depth float|half|short|byte    --components rgba|rgb|alpha    --straight 1: not premultiplied
       --left X --bottom Y         where the picture lies
       --field none|lower|upper    --context filter|general    --manages 1: the host manages colours
+      --config FILE --space NAME  it does so by OpenColorIO, and its clips are in that space
       --repeat N                  N times, and says how long each took; NAME=A..B changes from A to B meanwhile
       --abort MS                  asks to stop after that time, and says when it stopped
       --press NAME                presses that button first;  --show 1: prints parameters with their keys
       --identity 1                says whether it changes nothing, and renders nothing
+  stops EFFECT IN [NAME=VALUE...]
+                                  stops renders at --moments 30 moments each, and says how long they took to
+                                  end; --verbose 1: for each moment
   stress IN...                    --threads 8 --renders 100 --instances 4: random renders of all effects
   misuse IN                       wrong clips, handles and actions, missing suites: each must be refused politely
 )";
@@ -61,7 +65,8 @@ int main(int argc, char** argv)
         const char* name;
         bool (*function)(const std::string&, const Words&, std::string&);
     } commands[] = {
-        { "list", list }, { "describe", describe }, { "render", render }, { "stress", stress }, { "misuse", misuse }
+        { "list", list },   { "describe", describe }, { "render", render },
+        { "stops", stops }, { "stress", stress },     { "misuse", misuse },
     };
     for (const auto& [name, function] : commands)
         if (command == name)

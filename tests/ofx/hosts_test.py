@@ -12,6 +12,22 @@ import ofx_host
 import pictures
 
 
+# Scene-linear Rec. 709, and a camera's space: squares of its numbers are light.
+CONFIG = """ocio_profile_version: 2
+roles: {default: lin, scene_linear: lin}
+file_rules:
+  - !<Rule> {name: Default, colorspace: default}
+displays:
+  screen:
+    - !<View> {name: raw, colorspace: lin}
+colorspaces:
+  - !<ColorSpace> {name: lin}
+  - !<ColorSpace>
+    name: camera
+    to_scene_reference: !<ExponentTransform> {value: [2, 2, 2, 1]}
+"""
+
+
 class Hosts(ofx_host.HostTest):
     def parameters(self, effect, *arguments):
         """{name: {property: values as printed}}"""
@@ -70,6 +86,28 @@ class Hosts(ofx_host.HostTest):
                 "tool@.exr")
         self.assertLess(np.abs(pictures.read("tool2.exr") - expected).max(), 1e-5)
 
+    def test_dark_frames_have_no_keys(self):
+        names = [f"f{i}.exr" for i in range(1, 6)]
+        for i, name in enumerate(names):
+            light = np.array([1, 1, 1, 0]) * (0 if i in (1, 3, 4) else 1 + 0.1 * i)
+            ofx_host.write(name, ofx_host.scene(90, 70) * light + [0, 0, 0, 1])
+        said = self.host("render", "hdr_compress", *names, "out.exr", "--press", "analyse_shot", "--show", 1)
+        self.assertIn("OfxMessageWarning: Analyse shot: nothing is lit in frames 2, 4-5: not measured", said)
+        self.assertEqual(re.findall(r"^(dmax|key|white) = 0 @1:\S+ @3:\S+$", said, re.MULTILINE), ["dmax", "key", "white"])
+        said = self.host("render", "hdr_compress", "f2.exr", "f4.exr", "out.exr", "--press", "analyse_shot", status=1)
+        self.assertIn("nothing is lit in any frame", said)
+
+    def test_cuts_divide_a_shot(self):
+        """Frames after a cut are exposed by themselves, as pimgtool does it."""
+        names = [f"f{i}.exr" for i in range(1, 9)]
+        for i, name in enumerate(names):
+            ofx_host.write(name, ofx_host.scene(60, 45) * np.array([1, 1, 1, 0]) * (1 if i < 4 else 20) + [0, 0, 0, 1])
+        for words in ((), ("shot_cuts=none",)):
+            said = self.host("render", "hdr_compress", *names, "out.exr", "shot_mode=lock", *words, "--press", "analyse_shot",
+                             "--show", 1)
+            keys = re.search(r"^white = 0 (.*)$", said, re.MULTILINE).group(1).split()
+            self.assertEqual(len({key.split(":")[1] for key in keys}), 1 if words else 2, said)
+
     def test_what_is_found_in_a_frame(self):
         said = self.host("render", "hdr_compress", "in.exr", "out.exr", "--press", "analyse_frame", "--show", 1)
         found = dict(re.findall(r"^found_(\w+) = (\S+)$", said, re.MULTILINE))
@@ -94,6 +132,30 @@ class Hosts(ofx_host.HostTest):
         said = self.host("render", "segment", "in.exr", "out.exr", "--manages", 1)
         self.assertIn("output colourspace: 0 ofx_raw", said)
 
+    def test_colour_of_a_configuration(self):
+        """A host that works with OpenColorIO says which configuration and space; names are those of the configuration."""
+        with open("config.ocio", "w", encoding="utf-8") as file:
+            file.write(CONFIG)
+        words = ("--config", "config.ocio", "--space", "camera")
+        said = self.host("render", "hdr_compress", "in.exr", "out.exr", *words)
+        self.assertIn("style: OfxImageEffectColourManagementOCIO", said)
+        self.assertIn("output colourspace: 0 scene_linear", said)
+        self.ok("in.exr", "--build:incolorspace=camera", "--hdr-compress", "-d", "float", "-o", "tool.exr",
+                env={"OCIO": "config.ocio"})
+        expected = pictures.read("tool.exr")
+        self.assertTrue(np.array_equal(pictures.read("out.exr"), expected))
+        self.assertFalse(np.array_equal(self.tool("hdr_compress"), expected))
+        # The configuration of the host counts, not that of the environment, and only for this host.
+        self.host("render", "hdr_compress", "in.exr", "out.exr", "--config", "config.ocio", "colour_space=named",
+                  "colour_space_name=camera", environment={"OCIO": "missing.ocio"})
+        self.assertTrue(np.array_equal(pictures.read("out.exr"), expected))
+        said = self.host("render", "hdr_compress", "in.exr", "out.exr", "colour_space=named", "colour_space_name=camera", status=1)
+        self.assertIn("camera", said)
+        # One that cannot be read is an error where it is needed.
+        said = self.host("render", "hdr_compress", "in.exr", "out.exr", "--config", "missing.ocio", "--space", "camera", status=1)
+        self.assertIn("missing.ocio", said)
+        self.host("render", "hdr_compress", "in.exr", "out.exr", "--config", "missing.ocio", "colour_space=acescg")
+
     def test_proxies_look_like_the_whole(self):
         """HDR Compress at half and quarter scale: the mean luminance and the contrast of the full result."""
         ofx_host.write("large.exr", ofx_host.scene(240, 180))
@@ -109,6 +171,16 @@ class Hosts(ofx_host.HostTest):
         ofx_host.write("large.exr", ofx_host.scene(700, 500))
         self.host("render", "hdr_compress", "large.exr", "out.exr", "--abort", 30)
         self.assertFalse(np.array_equal(pictures.read("out.exr"), self.tool("hdr_compress", source="large.exr")))
+
+    def test_every_effect_stops_soon(self):
+        """At random moments of a build and of a filter. 50 ms are the aim; other tests may run beside this one."""
+        ofx_host.write("large.exr", ofx_host.scene(400, 300))
+        for line in self.host("list").splitlines():
+            effect = line.split()[0]
+            said = self.host("stops", effect, "large.exr", "--moments", 8)
+            times = re.findall(r"stopped after \S+ ms \(median\), \S+ \(9 of 10\), (\S+) \(most\)", said)
+            self.assertEqual(len(times), 2, said)
+            self.assertLess(max(map(float, times)), 200, effect + "\n" + said)
 
     def test_errors_are_messages(self):
         said = self.host("render", "feature_lowpass", "in.exr", "out.exr", "strength=1", "noise=1", status=1)
