@@ -38,7 +38,7 @@ constexpr const char* kHintPrefixes[] = { "tiff:", "png:",    "jpeg:",    "jpeg2
                                           "sgi:",  "dds:",    "ptex:",    "maketx:" };
 
 /// Attributes that say how this very file is to be written or was read, or that hold pointers.
-bool is_hint(const std::string& name, TypeDesc type)
+bool is_hint(const std::string& name, const TypeDesc& type)
 {
     if (type.basetype == TypeDesc::PTR || type.basetype == TypeDesc::UNKNOWN || type.basetype == TypeDesc::NONE)
         return true;
@@ -76,7 +76,7 @@ constexpr const char* kAlphaChannel = "pimg:alpha_channel";
 constexpr const char* kDepthChannel = "pimg:z_channel";
 
 /// Whether OpenImageIO has a name for the type. If not, some versions abort when asked for it.
-bool has_name(TypeDesc type)
+bool has_name(const TypeDesc& type)
 {
     for (const TypeDesc& named : { OIIO::TypeTimeCode, OIIO::TypeKeyCode, OIIO::TypeRational })
         if (type == named)
@@ -86,7 +86,7 @@ bool has_name(TypeDesc type)
 }
 
 /// The type as OpenImageIO prints it, if it can read that back; else "base:aggregate:semantics[length]".
-std::string type_word(TypeDesc type)
+std::string type_word(const TypeDesc& type)
 {
     const std::string word = has_name(type) ? type.c_str() : "";
     if (!word.empty() && TypeDesc(word) == type)
@@ -145,7 +145,7 @@ class AttributeList {
 public:
     explicit AttributeList(ImageSpec& spec) : m_list(spec.extra_attribs) { }
     /// Of several attributes with the same name, ignoring case, the last one counts.
-    void set(const std::string& name, TypeDesc type, const void* value)
+    void set(const std::string& name, const TypeDesc& type, const void* value)
     {
         const auto [found, is_new] = m_places.emplace(OIIO::Strutil::lower(name), m_list.size());
         if (is_new)
@@ -159,7 +159,7 @@ private:
     std::unordered_map<std::string, std::size_t> m_places;
 };
 
-void add_strings(AttributeList& list, const Attribute& attribute, TypeDesc type)
+void add_strings(AttributeList& list, const Attribute& attribute, const TypeDesc& type)
 {
     const std::string text(attribute.value.begin(), attribute.value.end());
     if (type.arraylen == 0) {

@@ -208,9 +208,9 @@ std::vector<Picture> equal_luma_edge()
 TEST(Simplify, SeveralChannelsShareOneGeometryAndKeepTheirEdges)
 {
     const std::vector<Picture> p = equal_luma_edge();
-    std::vector<float> luma;
-    for (std::size_t i = 0; i < p[0].samples.size(); ++i)
-        luma.push_back(0.5f * (p[0].samples[i] + p[1].samples[i]));
+    std::vector<float> luma = p[0].samples;
+    for (std::size_t i = 0; i < luma.size(); ++i)
+        luma[i] = 0.5f * (luma[i] + p[1].samples[i]);
     Hierarchy grey, colour;
     std::vector<Bands> grey_bands, colour_bands;
     ASSERT_TRUE(simplify({ 96, 96, { { luma.data() } } }, {}, grey, grey_bands).ok());

@@ -40,9 +40,9 @@ void expect_same_bits(Make&& make)
 
 std::vector<float> numbers(float low, float high, std::uint32_t seed)
 {
-    std::vector<float> v;
+    std::vector<float> v(kCount);
     for (std::uint32_t i = 0; i < kCount; ++i)
-        v.push_back(low + (high - low) * test::noise(i, 0, seed));
+        v[i] = low + (high - low) * test::noise(i, 0, seed);
     return v;
 }
 
@@ -100,9 +100,9 @@ TEST(FilterVectors, CompressedDetails)
 {
     const std::vector<float> contrasts = numbers(0.0f, 30.0f, 3), t = numbers(-25.0f, 25.0f, 4),
                              u = numbers(-25.0f, 25.0f, 5);
-    std::vector<Detail> details;
+    std::vector<Detail> details(kCount);
     for (std::size_t i = 0; i < kCount; ++i)
-        details.push_back({ t[i], u[i] });
+        details[i] = { t[i], u[i] };
     const DetailGain gain { 0.2f, 2.0f, 20.0f };
     for (const float* by : { contrasts.data(), static_cast<const float*>(nullptr) }) {
         const auto make = [&](std::size_t first, std::size_t count) {

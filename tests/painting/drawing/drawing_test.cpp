@@ -133,9 +133,9 @@ TEST(Drawing, SortingShortensTheWayAndLosesNothing)
     sort_lines(sorted);
     ASSERT_EQ(sorted.lines.size(), drawing.lines.size());
     EXPECT_LT(pen_travel(sorted), 0.15 * pen_travel(drawing));
-    std::vector<Index> first;
-    for (const InkLine& line : sorted.lines)
-        first.push_back(line.first);
+    std::vector<Index> first(sorted.lines.size());
+    std::transform(sorted.lines.begin(), sorted.lines.end(), first.begin(),
+                   [](const InkLine& line) { return line.first; });
     std::sort(first.begin(), first.end());
     EXPECT_EQ(std::adjacent_find(first.begin(), first.end()), first.end());
     EXPECT_TRUE(std::is_sorted(sorted.lines.begin(), sorted.lines.end(),

@@ -179,9 +179,9 @@ TEST(Ink, DoesNotDependOnTheLoop)
 TEST(Ink, PlansStrokesFromDarknessAlone)
 {
     const PaintedScene scene(test::scene(120, 90));
-    std::vector<float> darkness;
-    for (const float v : scene.samples)
-        darkness.push_back(1.0f - v / 255.0f);
+    std::vector<float> darkness = scene.samples;
+    for (float& v : darkness)
+        v = 1.0f - v / 255.0f;
     darkness[7] = std::numeric_limits<float>::quiet_NaN();
     PenOptions pen;
     pen.width = 2.25f;

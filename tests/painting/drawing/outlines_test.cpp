@@ -85,8 +85,10 @@ TEST(Outlines, NeedMoreContrastIfTheBaseHasLostThem)
 
 TEST(Outlines, AreMoreWithMoreDetail)
 {
-    const Raster grid = picture(
-        [](int x, int y) { return 100.0f + float(1 + x / 40) * (((x % 40 < 20) ^ (y % 40 < 20)) ? 6.0f : -6.0f); });
+    const Raster grid = picture([](int x, int y) {
+        const int strength = 1 + x / 40;
+        return 100.0f + float(strength) * (((x % 40 < 20) ^ (y % 40 < 20)) ? 6.0f : -6.0f);
+    });
     std::size_t before = 0;
     for (const float detail : { 0.0f, 0.5f, 1.0f }) {
         const std::size_t points = outlined(grid, detail).points.size();

@@ -27,7 +27,7 @@ using test::labels_of;
 namespace iba = pimg::ImageBufAlgo;
 
 /// Discs and shading, other in each channel; alpha a ramp.
-ImageBuf picture(int width, int height, int channels = 3, TypeDesc type = TypeDesc::UINT8)
+ImageBuf picture(int width, int height, int channels = 3, const TypeDesc& type = TypeDesc::UINT8)
 {
     ImageBuf buf(ImageSpec(width, height, channels, type));
     for (int y = 0; y < height; ++y)
