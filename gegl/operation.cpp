@@ -37,6 +37,7 @@ struct State {
     pimg::OptionTexts texts;       ///< properties that have been set
     pimg::ProgressiveImage image;  ///< of the pixels that came in last
     std::size_t fingerprint = 0;   ///< of these pixels
+    pimg::BuildOptions build;      ///< what it was built with
 
     pimg::OptionTexts texts_now()
     {
@@ -50,6 +51,9 @@ struct OperationClass {
     const Filter* filter;
     std::vector<OptionInfo>* options;  ///< in the order of their ids, which start at 1
 };
+
+/// The option of building that pictures without metadata need: sides that meet.
+constexpr const char* kWrap = "wrap";
 
 Operation* operation_of(void* object)
 {
@@ -224,24 +228,39 @@ OIIO::ImageBuf pixels_of(GeglBuffer* input, const GeglRectangle& box, const Babl
 }
 
 /// Finds the progressive image of these pixels: the one of the last time if the pixels are the same, else a new one.
-bool find_image(State& state, const OIIO::ImageBuf& pixels, pimg::ProgressiveImage& image, std::string& error)
+bool find_image(State& state, const OIIO::ImageBuf& pixels, const pimg::BuildOptions& build,
+                pimg::ProgressiveImage& image, std::string& error)
 {
     const std::string_view bytes(static_cast<const char*>(pixels.localpixels()), pixels.spec().image_bytes());
     const std::size_t fingerprint = std::hash<std::string_view>()(bytes);
     {
         const std::lock_guard<std::mutex> lock(state.mutex);
-        if (state.image.initialized() && state.fingerprint == fingerprint && state.image.spec().roi() == pixels.roi()) {
+        if (state.image.initialized() && state.fingerprint == fingerprint && state.image.spec().roi() == pixels.roi()
+            && pimg::same_options(state.build, build)) {
             image = state.image;
             return true;
         }
     }
-    if (!image.build(pixels)) {
+    if (!image.build(pixels, build)) {
         error = image.error();
         return false;
     }
     const std::lock_guard<std::mutex> lock(state.mutex);
     state.image = image;
     state.fingerprint = fingerprint;
+    state.build = build;
+    return true;
+}
+
+/// Moves the properties that are options of building out of `texts`.
+bool take_build_options(pimg::OptionTexts& texts, pimg::BuildOptions& build, std::string& error)
+{
+    const auto first =
+        std::stable_partition(texts.begin(), texts.end(), [](auto& text) { return text.first != kWrap; });
+    for (auto text = first; text != texts.end(); ++text)
+        if (!pimg::set_option(build, text->first, text->second, error))
+            return false;
+    texts.erase(first, texts.end());
     return true;
 }
 
@@ -252,8 +271,10 @@ bool render(Operation* self, GeglBuffer* input, GeglBuffer* output, const GeglRe
     const Babl* format = pixel_format(operation);
     pimg::BoundFilter filter;
     pimg::ProgressiveImage image;
-    if (!class_of(self)->filter->bind(state.texts_now(), filter, error)
-        || !find_image(state, pixels_of(input, whole_input(operation), format), image, error))
+    pimg::BuildOptions build;
+    pimg::OptionTexts texts = state.texts_now();
+    if (!take_build_options(texts, build, error) || !class_of(self)->filter->bind(texts, filter, error)
+        || !find_image(state, pixels_of(input, whole_input(operation), format), build, image, error))
         return false;
     OIIO::ImageSpec spec(roi.width, roi.height, 4, OIIO::TypeFloat);
     spec.x = roi.x;
@@ -314,6 +335,9 @@ void init_class(gpointer klass, gpointer filter)
     auto* self = static_cast<OperationClass*>(klass);
     self->filter = static_cast<const Filter*>(filter);
     self->options = new std::vector<OptionInfo>(self->filter->options());
+    for (const OptionInfo& option : pimg::describe_options<pimg::BuildOptions>())
+        if (option.key == kWrap)
+            self->options->push_back(option);
 
     GObjectClass* object = G_OBJECT_CLASS(klass);
     object->set_property = set_property;

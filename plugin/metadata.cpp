@@ -75,6 +75,9 @@ bool is_sound(const std::string& name, TypeDesc type, const void* value)
 constexpr const char* kAlphaChannel = "pimg:alpha_channel";
 constexpr const char* kDepthChannel = "pimg:z_channel";
 
+/// How XMP says that a picture is a panorama.
+constexpr const char* kProjection = "GPano:ProjectionType";
+
 /// Whether OpenImageIO has a name for the type. If not, some versions abort when asked for it.
 bool has_name(const TypeDesc& type)
 {
@@ -269,6 +272,10 @@ PictureDesc to_desc(const ImageSpec& spec)
     for (const ParamValue& param : spec.extra_attribs)
         if (!is_hint(param.name().string(), param.type()))
             desc.attributes.push_back(to_attribute(param));
+    // What textureformat says of the picture, and not of the file that it came from.
+    if (OIIO::Strutil::iequals(spec.get_string_attribute("textureformat"), "LatLong Environment")
+        && spec.find_attribute(kProjection) == nullptr)
+        desc.attributes.push_back(to_attribute(ParamValue(kProjection, "equirectangular")));
     if (spec.alpha_channel != alpha_by_name(spec))
         desc.attributes.push_back(channel_attribute(kAlphaChannel, spec.alpha_channel));
     if (spec.z_channel != depth_by_name(spec))

@@ -261,7 +261,9 @@ bool PimgOutput::build_hierarchy(ProgressiveImage& progressive)
         picture.set_pixels(channel, m_spec.channelformat(c), m_pixels.data() + m_spec.pixel_bytes(0, c, true),
                            stride_t(pixel), stride_t(m_spec.scanline_bytes(true)));
     }
-    if (progressive.build(picture, m_build, threads()))
+    BuildOptions build = m_build;
+    build.wrap = "none";  // a stored mesh has no margins; readers build that of a panorama anew
+    if (progressive.build(picture, build, threads()))
         return true;
     errorfmt("pimg: {}", progressive.error());
     return false;

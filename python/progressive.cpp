@@ -187,7 +187,10 @@ void save(const Progressive& progressive, const std::string& filename, const Opt
         throw py::value_error(format("\"{}\": expected a name that ends in .pimg", filename));
     {
         const py::gil_scoped_release released;
-        const std::unique_ptr<OIIO::ImageOutput> output = io::make_output(&progressive.image.hierarchy());
+        const ProgressiveImage stored = progressive.image.unwrapped(*progressive.pixels);
+        if (!stored.initialized())
+            raise(PyExc_OSError, format("cannot write \"{}\": {}", filename, stored.error()));
+        const std::unique_ptr<OIIO::ImageOutput> output = io::make_output(&stored.hierarchy());
         ImageSpec spec = progressive.pixels->spec();
         io::add_hints(spec, write_options);
         const std::string& space = progressive.image.options().incolorspace;

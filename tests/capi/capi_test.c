@@ -101,6 +101,31 @@ static void test_strides(void)
     pimg_free(b);
 }
 
+/* Waves that continue across the sides: there are no more steps at the seam than elsewhere. */
+static void test_sides_that_meet(void)
+{
+    char error[200] = "";
+    static float waves[width * height * channels], result[width * height * channels];
+    const pimg_pixels picture = packed(waves, width, height), out = packed(result, width, height);
+    float steps[2] = { 0.0f, 0.0f };
+    for (int i = 0; i < width * height * channels; ++i) {
+        const int x = i / channels % width, y = i / channels / width;
+        waves[i] = 1.0f + 0.5f * sinf(6.2831853f * ((float)x / width + (float)y / height))
+            + 0.1f * (float)((x * 31 + y * 17) % 97) / 97.0f;
+    }
+    const char* const wraps[2] = { "wrap=none", "wrap=xy:layer=\"\"" };
+    for (int w = 0; w < 2; ++w) {
+        pimg_image* image = pimg_build(&picture, wraps[w], error, sizeof error);
+        CHECK(image != NULL && pimg_render(image, "level:faces=100", &out, 0, 0, 0, error, sizeof error));
+        pimg_free(image);
+        for (int y = 0; y < height; ++y) {
+            const float step = result[y * width * channels] - result[((y + 1) * width - 1) * channels];
+            steps[w] += step > 0 ? step : -step;
+        }
+    }
+    CHECK(steps[1] < 0.5f * steps[0]);
+}
+
 static void test_labels(const pimg_image* image)
 {
     static float labels[width * height];
@@ -158,6 +183,10 @@ static void test_errors(const pimg_image* image)
     expect_error(pimg_build(&out, "guide=x", error, sizeof error) != NULL, error, "one of luma, log, rgb");
     expect_error(pimg_build(&out, "incolorspace=nowhere", error, sizeof error) != NULL, error, "nowhere");
 
+    /* Samples in memory have no names, so there is one layer, that without a name. */
+    expect_error(pimg_build(&out, "layer=fill", error, sizeof error) != NULL, error, "layer=");
+    expect_error(pimg_build(&out, "wrap=y", error, sizeof error) != NULL, error, "one of none, x, xy");
+
     char small[8] = "1234567";
     CHECK(!pimg_render(image, "sharpen", &out, 0, 0, 0, small, sizeof small));
     CHECK(strcmp(small, "unknown") == 0);
@@ -178,6 +207,7 @@ int main(void)
     test_windows(image, "hdr_compress:s0=0.2:beta=4");
     test_windows(image, "paint:canvas=\"1,1,1\":seed=3");
     test_strides();
+    test_sides_that_meet();
     test_labels(image);
     test_errors(image);
     pimg_free(image);

@@ -57,6 +57,21 @@ class Gegl(pictures.ToolTest):
         self.assertGreater(source.max(), 50)
         self.assertTrue(np.array_equal(result[..., :3], source))
 
+    def test_sides_meet_as_in_pimgtool(self):
+        self.ok("in.exr", "--build:wrap=xy", "--feature-lowpass:fraction=0.05", "-d", "float", "-o", "tool.exr")
+        result = self.gegl("in.exr", "pimg:feature-lowpass fraction=0.05 wrap=xy")
+        self.assertTrue(np.array_equal(result[..., :3], read("tool.exr")))
+        done = run("in.exr", "-o", "out.exr", "--", "pimg:level", "wrap=around")
+        self.assertIn("expected one of none, x, xy", done.stderr)
+
+    def test_the_layer_that_was_loaded_is_the_picture(self):
+        # GEGL hands over R, G, B and A of the file; other layers and depth are not seen, and change nothing.
+        picture = pictures.hdr_scene(150, 140)
+        more = np.concatenate([picture[..., ::-1] * 7, picture, picture[..., :1] * 100], 2)
+        pictures.write("layers.exr", more, "float", names=["key.R", "key.G", "key.B", "R", "G", "B", "Z"])
+        result = self.gegl("layers.exr", "pimg:hdr-compress fit=false")
+        self.assertTrue(np.array_equal(result[..., :3], self.gegl("in.exr", "pimg:hdr-compress fit=false")[..., :3]))
+
     def test_operations_chain_with_those_of_gegl(self):
         result = self.gegl("in.exr", "gegl:crop x=20 y=30 width=90 height=80 pimg:hdr-compress gegl:exposure exposure=1")
         pictures.oiiotool("in.exr", "--cut", "90x80+20+30", "-o", "cut.exr")

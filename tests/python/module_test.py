@@ -376,6 +376,38 @@ class Files(unittest.TestCase):
         self.assertIsInstance(p.hdr_compress(), oiio.ImageBuf)
         self.assertTrue(np.array_equal(pixels_of(p.hdr_compress()), pimg.hdr_compress(scene())))
 
+    def test_a_layer_is_named_while_building_and_reading(self):
+        layers = {name: scene() * factor for name, factor in (("key", 1), ("fill", (0.2, 3, 1)))}
+        buffer = buffer_of(np.concatenate([*layers.values()], 2).astype(np.float32))
+        buffer.specmod().channelnames = [f"{name}.{c}" for name in layers for c in "RGB"]
+        exr, path = str(self.folder / "in.exr"), self.folder / "in.pimg"
+        buffer.write(exr)
+        pimg.build(buffer, layer="key").save(path)
+        with self.assertRaisesRegex(ValueError, "one of key, fill"):
+            pimg.build(buffer)
+
+        def channels(result, layer):  # files have an order of their own
+            return pixels_of(result)[..., [result.spec().channelindex(f"{layer}.{c}") for c in "RGB"]]
+
+        for name, other in (("key", "fill"), ("fill", "key")):
+            expected = pimg.hdr_compress(layers[name].astype(np.float32))
+            for source in (pimg.build(buffer, layer=name), pimg.open(exr, layer=name), pimg.open(path, layer=name)):
+                result = source.hdr_compress()
+                self.assertTrue(np.array_equal(channels(result, name), expected))
+                self.assertTrue(np.array_equal(channels(result, other), layers[other].astype(np.float32)))
+            read = oiio.ImageBuf(f"{path}?hdr_compress=1&layer={name}")
+            self.assertTrue(np.array_equal(channels(read, name), expected))
+
+    def test_sides_that_meet(self):
+        array = scene(96, 48)
+        plain, around = pimg.build(array), pimg.build(array, wrap="x")
+        self.assertGreater(around.vertices, plain.vertices)
+        self.assertEqual(around.hdr_compress().shape, array.shape)
+        around.save(self.folder / "around.pimg")  # a stored mesh has no margins
+        self.assertEqual(pimg.open(self.folder / "around.pimg").vertices, plain.vertices)
+        with self.assertRaisesRegex(ValueError, "expected one of none, x, xy"):
+            pimg.build(array, wrap="y")
+
     def test_openimageio_reads_and_writes_pimg_after_the_import(self):
         name = str(self.folder / "a.pimg")
         self.assertTrue(buffer_of(picture("uint8")).write(name))

@@ -69,7 +69,11 @@ ImageSpec file_spec(const ImageBuf& pixels, const PixelTypes& types, const Image
     ImageSpec spec = pixels.spec();
     if (spec.get_int_attribute("oiio:BitsPerSample") != int(types.all.size()) * 8)
         spec.erase_attribute("oiio:BitsPerSample");
-    spec.erase_attribute("textureformat");  // the file has one level, and is no MIP-map
+    // One level of no MIP-map. OpenEXR is told so for panoramas: OpenImageIO would wait for more and not close the file.
+    if (spec.get_string_attribute("textureformat") != "LatLong Environment")
+        spec.erase_attribute("textureformat");
+    else
+        spec.attribute("openexr:levelmode", 0);
     spec.tile_width = spec.tile_height = spec.tile_depth = 0;
     // Level 6, OpenImageIO's default, makes files 2 to 3 % smaller but takes three times as long, which was a sixth of
     // the time of the whole command.

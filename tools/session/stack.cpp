@@ -148,12 +148,14 @@ OutputPicture Session::output_of(const Picture& picture) const
 
 bool Session::write(const std::string& filename, const pimg::io::WriteOptions& options)
 {
-    const pimg::Hierarchy* hierarchy = nullptr;
+    pimg::ProgressiveImage stored;
     if (has_pimg_extension(filename) && options.profile == "full") {
         const pimg::ProgressiveImage* image = hierarchy_of(top());
         if (!image)
             return false;
-        hierarchy = &image->hierarchy();
+        stored = image->unwrapped(*top().pixels);
+        if (!stored.initialized())
+            return fail(format("cannot write \"{}\": {}", filename, stored.error()));
     }
     const StageTimer timer(stats, Stage::write);
     std::vector<const Picture*> parts { &top() };
@@ -164,7 +166,7 @@ bool Session::write(const std::string& filename, const pimg::io::WriteOptions& o
     for (const Picture* part : parts)
         out.push_back(output_of(*part));
     const auto picture = std::size_t(std::find(parts.begin(), parts.end(), &top()) - parts.begin());
-    out[picture].hierarchy = hierarchy;
+    out[picture].hierarchy = stored.initialized() ? &stored.hierarchy() : nullptr;
     out[picture].options = options;
     ProgressBar bar(label("writing", filename));
     std::string summary, warning, error;
@@ -222,9 +224,13 @@ const pimg::ProgressiveImage* Session::hierarchy_of(const Picture& picture)
         return nullptr;
     }
     const pimg::Hierarchy& hierarchy = lazy.image.hierarchy();
+    const bool is_read = lazy.stored && lazy.image.stats().wrap == "none";
     stats.add(picture.name, lazy.image);
-    say(format("{}: {} {} vertices, {} splits, {:.2f} s", picture.name, lazy.stored ? "read" : "built",
+    say(format("{}: {} {} vertices, {} splits, {:.2f} s", picture.name, is_read ? "read" : "built",
                hierarchy.vertices(), hierarchy.levels(), lazy.image.stats().simplify_seconds));
+    if (lazy.image.stats().wrap != "none")
+        say(format("{}: opposite sides meet: wrap={}{}", picture.name, lazy.image.stats().wrap,
+                   lazy.options.wrap.empty() ? ", as its metadata say it is a lat-long panorama" : ""));
     return &lazy.image;
 }
 

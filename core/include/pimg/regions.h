@@ -25,6 +25,8 @@ struct RegionOptions {
     /// The pieces to start from: one number per pixel, such as DualPieces::labels() returns. Their 4-connected parts are
     /// merged. If null, every pixel is a piece.
     const std::vector<Index>* pieces = nullptr;
+    /// Whether left and right, top and bottom meet: regions then continue across the seam.
+    bool wrap_x = false, wrap_y = false;
 };
 
 struct [[deprecated("use a ChannelsView and RegionOptions::pieces")]] RegionInput

@@ -19,9 +19,24 @@ namespace {
 
 constexpr std::size_t kMaxChannels = 64;  ///< more than any picture needs; limits what an untrusted caller can ask for
 
-/// Gaussian of one channel, edges repeated. In place, through one row or column at a time.
-void smooth(std::vector<float>& samples, std::size_t width, std::size_t height, float sigma)
+/// The number of sample i - before of a line of `count`: beyond its ends the other end, or the end again.
+std::size_t before(std::size_t i, std::size_t steps, std::size_t count, bool wraps)
 {
+    if (wraps)
+        return (i + count - steps % count) % count;
+    return i < steps ? 0 : std::min(i - steps, count - 1);
+}
+
+/// The number of the sample after i.
+std::size_t after(std::size_t i, std::size_t count, bool wraps)
+{
+    return i + 1 < count ? i + 1 : wraps ? 0 : i;
+}
+
+/// Gaussian of one channel. In place, through one row or column at a time.
+void smooth(std::vector<float>& samples, std::size_t width, std::size_t height, const RegionOptions& options)
+{
+    const float sigma = options.smoothing;
     if (!(sigma > 0.0f))
         return;
     const int reach = int(std::ceil(3.0f * sigma));
@@ -33,13 +48,11 @@ void smooth(std::vector<float>& samples, std::size_t width, std::size_t height, 
     for (float& k : kernel)
         k /= total;
     std::vector<float> line;
-    const auto pass = [&](std::size_t first, std::size_t step, std::size_t count) {
+    const auto pass = [&](std::size_t first, std::size_t step, std::size_t count, bool wraps) {
         stop_point();
         line.resize(count + 2 * std::size_t(reach));
-        for (std::size_t i = 0; i < line.size(); ++i) {
-            const std::size_t from = i < std::size_t(reach) ? 0 : std::min(i - std::size_t(reach), count - 1);
-            line[i] = samples[first + from * step];
-        }
+        for (std::size_t i = 0; i < line.size(); ++i)
+            line[i] = samples[first + before(i, std::size_t(reach), count, wraps) * step];
         for (std::size_t i = 0; i < count; ++i) {
             float sum = 0.0f;
             for (std::size_t k = 0; k < kernel.size(); ++k)
@@ -48,25 +61,25 @@ void smooth(std::vector<float>& samples, std::size_t width, std::size_t height, 
         }
     };
     for (std::size_t y = 0; y < height; ++y)
-        pass(y * width, 1, width);
+        pass(y * width, 1, width, options.wrap_x);
     for (std::size_t x = 0; x < width; ++x)
-        pass(x, width, height);
+        pass(x, width, height, options.wrap_y);
 }
 
 /// Length of the gradient per pixel over all channels, by central differences.
-std::vector<float> gradient(const ChannelsView& picture, float sigma)
+std::vector<float> gradient(const ChannelsView& picture, const RegionOptions& options)
 {
     const std::size_t w = std::size_t(picture.width), h = std::size_t(picture.height);
     std::vector<float> squares(w * h, 0.0f), samples;
     for (const float* channel : picture.channels) {
         samples.assign(channel, channel + w * h);
-        smooth(samples, w, h, sigma);
+        smooth(samples, w, h, options);
         for (std::size_t y = 0; y < h; ++y) {
-            const float* up = &samples[(y > 0 ? y - 1 : 0) * w];
+            const float* up = &samples[before(y, 1, h, options.wrap_y) * w];
             const float* here = &samples[y * w];
-            const float* down = &samples[std::min(y + 1, h - 1) * w];
+            const float* down = &samples[after(y, h, options.wrap_y) * w];
             for (std::size_t x = 0; x < w; ++x) {
-                const float gx = 0.5f * (here[std::min(x + 1, w - 1)] - here[x > 0 ? x - 1 : 0]);
+                const float gx = 0.5f * (here[after(x, w, options.wrap_x)] - here[before(x, 1, w, options.wrap_x)]);
                 const float gy = 0.5f * (down[x] - up[x]);
                 squares[y * w + x] += gx * gx + gy * gy;
             }
@@ -78,6 +91,39 @@ std::vector<float> gradient(const ChannelsView& picture, float sigma)
 }
 
 constexpr std::uint32_t kPassedBetweenStops = 1024;  ///< candidates; up to some microseconds each
+
+/// The parts of `pieces`, connected across the sides that meet, too: numbers from 0 in the order of their first pixels.
+/// Returns how many there are.
+Index parts_of(const std::vector<Index>& pieces, const ChannelsView& picture, const RegionOptions& options,
+               std::vector<Index>& parts)
+{
+    const std::size_t w = std::size_t(picture.width), h = std::size_t(picture.height);
+    parts = pieces;
+    const Index count = connected_parts(parts, picture.width, picture.height);
+    std::vector<Index> first(count);  // of the parts that are one
+    std::iota(first.begin(), first.end(), Index(0));
+    const auto root = [&](Index part) {
+        while (first[part] != part)
+            part = first[part] = first[first[part]];
+        return part;
+    };
+    const auto join = [&](std::size_t p, std::size_t q) {
+        const Index a = root(parts[p]), b = root(parts[q]);
+        if (pieces[p] == pieces[q])
+            first[std::max(a, b)] = std::min(a, b);
+    };
+    for (std::size_t y = 0; options.wrap_x && y < h; ++y)
+        join(y * w, y * w + w - 1);
+    for (std::size_t x = 0; options.wrap_y && x < w; ++x)
+        join(x, (h - 1) * w + x);
+    std::vector<Index> number(count);
+    Index joined = 0;
+    for (Index part = 0; part < count; ++part)  // roots have the lowest numbers, so they come first
+        number[part] = first[part] == part ? joined++ : number[root(part)];
+    for (Index& part : parts)
+        part = number[part];
+    return joined;
+}
 
 struct Candidate {
     float cost;
@@ -157,7 +203,7 @@ void RegionMerger::add_borders(const ChannelsView& picture)
 {
     const std::vector<Index>& leaf_of = m_tree.m_leaf_of;
     const std::size_t w = std::size_t(picture.width), n = leaf_of.size();
-    const std::vector<float> slope = gradient(picture, m_options.smoothing);
+    const std::vector<float> slope = gradient(picture, m_options);
     struct Side {
         std::uint64_t pair;
         float strength;
@@ -171,10 +217,11 @@ void RegionMerger::add_borders(const ChannelsView& picture)
             sides.push_back({ std::uint64_t(a) << 32 | b, slope[p] + slope[q] });
     };
     for (std::size_t p = 0; p < n; ++p) {
-        if ((p + 1) % w != 0)
-            add(p, p + 1);
-        if (p + w < n)
-            add(p, p + w);
+        const bool ends = (p + 1) % w == 0;
+        if (!ends || m_options.wrap_x)
+            add(p, ends ? p + 1 - w : p + 1);
+        if (p + w < n || m_options.wrap_y)
+            add(p, (p + w) % n);
     }
     std::uint32_t compared = 0;
     std::stable_sort(sides.begin(), sides.end(), [&compared](const Side& a, const Side& b) {
@@ -306,8 +353,7 @@ Status RegionTree::build(const ChannelsView& picture, const RegionOptions& optio
         return Status::failure("the pieces to merge are not those of this picture");
     RegionTree t;
     if (options.pieces) {
-        t.m_leaf_of = *options.pieces;
-        t.m_leaves = connected_parts(t.m_leaf_of, picture.width, picture.height);
+        t.m_leaves = parts_of(*options.pieces, picture, options, t.m_leaf_of);
     } else {
         t.m_leaf_of.resize(n);
         std::iota(t.m_leaf_of.begin(), t.m_leaf_of.end(), Index(0));

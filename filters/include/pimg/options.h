@@ -97,6 +97,9 @@ struct BuildOptions {
         incolorspace;   ///< colour space of the picture; empty: its oiio:ColorSpace, else sRGB for whole numbers,
                         ///< else scene-linear
     std::string layer;  ///< which channels are the picture; empty: see Colour::count()
+    /// Which sides meet, so that filters leave no seam: none; x for panoramas in latitude and longitude, whose left and
+    /// right sides meet; xy for tiles. Empty: x if the metadata say that the picture is such a panorama, else none.
+    std::string wrap;
     std::string mesh = "full";         ///< full: one vertex per pixel; adaptive: fewer, and a residual (section 6)
     float density = 0.33f;             ///< share of the pixels that are vertices of an adaptive mesh
     std::string control = "gradient";  ///< what it follows: gradient, curvature, or the brightness of an image file

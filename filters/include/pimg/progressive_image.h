@@ -23,6 +23,7 @@ struct BuildStats {
     double sample_seconds = 0.0;    ///< the initial mesh, if adaptive
     double simplify_seconds = 0.0;  ///< the hierarchy
     std::string guide;              ///< the guide that was used: luma, log, rgb or lab
+    std::string wrap;               ///< which sides meet: none, x or xy; see BuildOptions::wrap
     SimplifyStats engine;           ///< of the simplification
 };
 
@@ -48,6 +49,10 @@ struct BuildStats {
 /// to the picture: if it is multiplied by a power of two, the mesh stays the same.
 ///
 /// Colour with alpha is worked on as stored, that is associated (premultiplied), as everywhere in OpenImageIO.
+///
+/// If sides of the picture meet (BuildOptions::wrap), the hierarchy is that of a larger picture, with margins that repeat
+/// what is beyond each seam. Filters mix what they make of both margins, so that both sides agree. In panoramas errors
+/// count less towards the poles, by the cosine of the latitude.
 class ProgressiveImage {
 public:
     /// A function that provides a hierarchy which was built before, and the bands of channels on it. The channels hold one
@@ -62,9 +67,14 @@ public:
     /// failure, also when `progress` asked to stop, returns false, and error() says why in one line.
     bool build(const OIIO::ImageBuf& src, const BuildOptions& options = {}, int nthreads = 0, Progress progress = {});
 
-    /// The same with a stored hierarchy of this very picture. Nothing is built, so options.base has no effect.
+    /// The same with a stored hierarchy of this very picture. Nothing is built, so options.base has no effect; except if
+    /// sides of the picture meet: stored hierarchies have no margins, so that this is build() then.
     bool adopt(const OIIO::ImageBuf& src, const StoredHierarchy& stored, const BuildOptions& options = {},
                int nthreads = 0);
+
+    /// What a file can store: this, or if sides of the picture meet, the same built without margins. `src` is the picture
+    /// this was built from. Not initialized(), with an error(), if building fails.
+    ProgressiveImage unwrapped(const OIIO::ImageBuf& src, int nthreads = 0) const;
 
     /// Whether build() or adopt() has succeeded.
     bool initialized() const { return m_data != nullptr; }
@@ -75,9 +85,11 @@ public:
 
     const Hierarchy& hierarchy() const;
     const std::vector<Bands>& guide_bands() const;  ///< of each channel of the guide
-    const OIIO::ImageBuf& source() const;           ///< the picture as float, own memory, NaN and Inf replaced
-    const OIIO::ImageSpec& spec() const;            ///< the spec of the picture that was given
-    const BuildOptions& options() const;            ///< those it was built with
+    /// The picture as float, own memory, NaN and Inf replaced, with the margins of BuildOptions::wrap: the pixels of the
+    /// hierarchy.
+    const OIIO::ImageBuf& source() const;
+    const OIIO::ImageSpec& spec() const;  ///< the spec of the picture that was given
+    const BuildOptions& options() const;  ///< those it was built with
     const BuildStats& stats() const;
     std::size_t memory() const;  ///< bytes held now, caches included
 

@@ -7,6 +7,8 @@
 
 #include <pimg/detail/format.h>
 
+#include "frame/seam_mixer.h"
+
 namespace pimg {
 
 namespace {
@@ -27,7 +29,9 @@ bool is_built(OIIO::ImageBuf& dst, const ProgressiveImage& src)
 bool prepare_as(OIIO::ImageBuf& dst, ProgressiveImage::Data& data, OIIO::ROI& roi, OIIO::ImageSpec spec)
 {
     // A region with nothing of the source in it is no error, but IBAprep would turn it inside out.
-    const OIIO::ROI whole = data.source.roi();
+    OIIO::ROI whole = OIIO::get_roi(data.picture);
+    if (!roi.defined() && !dst.initialized())
+        roi = whole;  // the source has margins, too
     if (roi.defined() && is_empty(OIIO::roi_intersection(roi, whole))) {
         roi = OIIO::ROI(whole.xbegin, whole.xbegin, whole.ybegin, whole.ybegin);
         return true;
@@ -48,7 +52,7 @@ bool prepare(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, R
 {
     if (!is_built(dst, src))
         return false;
-    OIIO::ImageSpec spec = src.data()->spec;
+    OIIO::ImageSpec spec = src.data()->picture;
     if (type == ResultType::full_float || (type == ResultType::floating && !spec.format.is_floating_point()))
         spec.format = OIIO::TypeDesc::FLOAT;
     return prepare_as(dst, *src.data(), roi, spec);
@@ -60,14 +64,14 @@ bool prepare_single(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI&
     if (!is_built(dst, src))
         return false;
     ProgressiveImage::Data& data = *src.data();
-    OIIO::ImageSpec spec = data.spec;
+    OIIO::ImageSpec spec = data.picture;
     spec.nchannels = 1;
     spec.channelnames = { name };
     spec.alpha_channel = spec.z_channel = -1;
     if (type != OIIO::TypeDesc::UNKNOWN)
         spec.format = type;
     if (!roi.defined())
-        roi = dst.initialized() ? dst.roi() : data.source.roi();
+        roi = dst.initialized() ? dst.roi() : OIIO::get_roi(data.picture);
     roi.chbegin = 0;
     roi.chend = 1;
     return prepare_as(dst, data, roi, spec);
@@ -94,11 +98,11 @@ PictureResult drawn_result(const ProgressiveImage::Data& data, Channels&& channe
         for (std::size_t i = 0; i < alpha.size(); ++i)
             channel[i] *= alpha[i];
     }
-    return { std::move(channels), Specials::replaced };
+    return { std::move(channels), Specials::replaced, Seams::cut };
 }
 
 void write_rows(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, OIIO::ROI roi, const ParallelFor& parallel,
-                const RowFilter& filter)
+                const RowFilter& filter, Seams seams)
 {
     if (is_empty(roi))
         return;
@@ -107,16 +111,18 @@ void write_rows(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, OIIO::R
     const std::size_t pixel_bytes = std::size_t(channels) * sizeof(float);
     const bool in_place = type == OIIO::TypeDesc::FLOAT && roi.chbegin == 0 && roi.chend == channels
         && dst.pixel_stride() == OIIO::stride_t(pixel_bytes);
+    const SeamMixer mixer(data, filter, seams == Seams::mixed);
     for_rows(parallel, roi.ybegin, roi.yend, [&](int y) {
+        const RowSpan span { y, roi.xbegin, roi.xend };
         const float* source = static_cast<const float*>(data.source.pixeladdr(roi.xbegin, y, roi.zbegin));
         if (in_place) {
             float* row = static_cast<float*>(dst.pixeladdr(roi.xbegin, y, roi.zbegin));
             std::copy_n(source, std::size_t(roi.width()) * std::size_t(channels), row);
-            filter(y, row);
+            mixer.make(span, row);
             return;
         }
         std::vector<float> row(source, source + std::size_t(roi.width()) * std::size_t(channels));
-        filter(y, row.data());
+        mixer.make(span, row.data());
         OIIO::convert_image(roi.nchannels(), roi.width(), 1, 1, row.data() + roi.chbegin, OIIO::TypeDesc::FLOAT,
                             OIIO::stride_t(pixel_bytes), OIIO::AutoStride, OIIO::AutoStride,
                             dst.pixeladdr(roi.xbegin, y, roi.zbegin, roi.chbegin), type, dst.pixel_stride(),
@@ -125,23 +131,23 @@ void write_rows(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, OIIO::R
 }
 
 void write_channels(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, OIIO::ROI roi, const ParallelFor& parallel,
-                    const std::vector<std::vector<float>>& results, Specials specials)
+                    const std::vector<std::vector<float>>& results, Specials specials, Seams seams)
 {
     const OIIO::ImageSpec& spec = data.source.spec();
-    write_rows(dst, data, roi, parallel, [&](int y, float* row) {
-        const int first = roi.xbegin - spec.x;
+    const auto take = [&](const RowSpan& span, float* row) {
+        const Index begin = Index(span.y - spec.y) * Index(spec.width) + Index(span.xbegin - spec.x);
         for (int i = 0; i < data.colour.count(); ++i) {
             float* out = row + data.colour.channel(i);
-            const float* in = &results[std::size_t(i)][std::size_t(y - spec.y) * std::size_t(spec.width)];
-            for (int x = 0; x < roi.width(); ++x, out += spec.nchannels)
-                *out = in[first + x];
+            const float* in = &results[std::size_t(i)][begin];
+            for (std::size_t x = 0; x < span.width(); ++x, out += spec.nchannels)
+                *out = in[x];
         }
         if (specials == Specials::replaced)
             return;
-        const Index begin = Index(y - spec.y) * Index(spec.width) + Index(first);
-        for_specials(data, begin, std::size_t(roi.width()),
+        for_specials(data, begin, span.width(),
                      [&](const SpecialSample& s) { row[int(s.pixel - begin) * spec.nchannels + s.channel] = s.value; });
-    });
+    };
+    write_rows(dst, data, roi, parallel, take, seams);
 }
 
 }  // namespace pimg

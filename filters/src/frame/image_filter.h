@@ -37,20 +37,31 @@ bool prepare(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, R
 bool prepare_single(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, const char* name,
                     const OIIO::TypeDesc& type);
 
-/// Makes results of the colour channels of row `y` for the pixels [roi.xbegin, roi.xend) of the
-/// picture. `row` holds all channels of those pixels, as in the source.
-using RowFilter = std::function<void(int y, float* row)>;
+/// Pixels [xbegin, xend) of row y, in the source's coordinates.
+struct RowSpan {
+    int y, xbegin, xend;
+
+    std::size_t width() const { return std::size_t(xend - xbegin); }
+};
+
+/// Makes results of the colour channels of a span. `row` holds all channels of its pixels, as in the source.
+using RowFilter = std::function<void(const RowSpan& span, float* row)>;
+
+/// How results of pictures whose sides meet are made of what is in the margins: mixed, or cut where the picture ends, for
+/// lines, of which a mixture would show twice as many, and for what fits already.
+enum class Seams { mixed, cut };
 
 /// Runs `filter` on every row of `roi` and writes the channels of `roi` to `dst`, whatever its pixel type.
 void write_rows(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, OIIO::ROI roi, const ParallelFor& parallel,
-                const RowFilter& filter);
+                const RowFilter& filter, Seams seams = Seams::mixed);
 
 /// What results have where samples of the source were not finite.
 enum class Specials { restored, replaced };
 
 /// write_rows() with the colour channels taken from `results`, one raster of the picture's size each.
 void write_channels(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, OIIO::ROI roi, const ParallelFor& parallel,
-                    const std::vector<std::vector<float>>& results, Specials specials = Specials::restored);
+                    const std::vector<std::vector<float>>& results, Specials specials = Specials::restored,
+                    Seams seams = Seams::mixed);
 
 /// The alpha that goes with the picture's colours, one float per pixel; empty if it has none.
 std::vector<float> alpha_of(const ProgressiveImage::Data& data);
@@ -96,6 +107,7 @@ struct FilterCall {
 struct PictureResult {
     Channels channels;
     Specials specials = Specials::restored;
+    Seams seams = Seams::mixed;
 };
 
 /// The result of a filter that draws on mesh pixels what was not there before: cropped to the picture, and nothing
@@ -119,7 +131,7 @@ bool filter_picture(const FilterCall& call, const Options& options, ResultType t
             set_error(call.dst, error);
             return false;
         }
-        write_channels(call.dst, data, roi, parallel, result.channels, result.specials);
+        write_channels(call.dst, data, roi, parallel, result.channels, result.specials, result.seams);
         return true;
     });
 }

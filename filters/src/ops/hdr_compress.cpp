@@ -119,11 +119,11 @@ public:
             && colour.channel(1) == 1;
     }
 
-    void render(int y, const OIIO::ROI& roi, float* row) const
+    void render(const RowSpan& span, float* row) const
     {
         const OIIO::ImageSpec& spec = m_data.source.spec();
-        const std::size_t count = std::size_t(roi.width());
-        const Index first = Index(y - spec.y) * Index(spec.width) + Index(roi.xbegin - spec.x);
+        const std::size_t count = span.width();
+        const Index first = Index(span.y - spec.y) * Index(spec.width) + Index(span.xbegin - spec.x);
         if (m_in_place)
             recolour_pixels(first, count, row);
         else
@@ -250,7 +250,7 @@ bool resolve_hdr_compress(const ImageBuf& src, HdrCompressOptions& options, std:
     const LogLuminance luminance = log_luminance(data.source, data.colour, parallel);
     Overview overview;
     const auto look = [&]() -> const Overview* {
-        const Status status = look_from_afar(luminance, parallel, overview);
+        const Status status = look_from_afar(luminance, data.wrap, parallel, overview);
         error = status.error();
         return status ? &overview : nullptr;
     };
@@ -275,7 +275,7 @@ bool on_hierarchy::hdr_compress(ImageBuf& dst, const ProgressiveImage& src, cons
             return false;
         }
         const Renderer renderer(data, compressed);
-        write_rows(dst, data, roi, parallel, [&](int y, float* row) { renderer.render(y, roi, row); });
+        write_rows(dst, data, roi, parallel, [&](const RowSpan& span, float* row) { renderer.render(span, row); });
         data.colour.declare_linear(dst.specmod());
         return true;
     });

@@ -118,9 +118,11 @@ std::vector<float> weights_of(const Raster& means, const std::vector<char>& lit)
 
 }  // namespace
 
-Status look_from_afar(const LogLuminance& luminance, const ParallelFor& parallel, Overview& overview)
+Status look_from_afar(const LogLuminance& luminance, const Wrap& wrap, const ParallelFor& parallel, Overview& overview)
 {
-    const Raster means = mean_luminance(luminance.guide, parallel);
+    const Raster means = !wrap
+        ? mean_luminance(luminance.guide, parallel)
+        : mean_luminance({ wrap.width, wrap.height, without_margins(wrap, luminance.guide.samples) }, parallel);
     overview.log = means.samples;
     for (const float value : overview.log)
         overview.lit.push_back(value > luminance.floor + kAboveBlack);

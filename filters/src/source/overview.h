@@ -11,6 +11,7 @@
 
 #include "source/contrast_envelope.h"
 #include "source/guide.h"
+#include "source/wrap/wrap.h"
 
 namespace pimg {
 
@@ -23,7 +24,7 @@ struct Overview {
     std::unique_ptr<PlannedBands> bands;
 };
 
-Status look_from_afar(const LogLuminance& luminance, const ParallelFor& parallel, Overview& overview);
+Status look_from_afar(const LogLuminance& luminance, const Wrap& wrap, const ParallelFor& parallel, Overview& overview);
 
 /// A number and how much it counts.
 struct Weighted {

@@ -18,6 +18,7 @@
 #include "source/contrast_envelope.h"
 #include "source/lab.h"
 #include "source/progressive_image_data.h"
+#include "source/wrap/latitude.h"
 
 namespace pimg {
 
@@ -46,8 +47,8 @@ std::vector<float> mesh_samples(const ProgressiveImage::Data& data, int channel,
     return to_mesh_pixels(data.hierarchy, samples.data());
 }
 
-/// Brightness of an image file of the guide's size: the mean of its colour channels.
-bool read_control_map(const std::string& filename, const Guide& guide, std::vector<float>& map, std::string& error)
+/// Brightness of an image file of the picture's size, with margins: the mean of its colour channels.
+bool read_control_map(const std::string& filename, const Wrap& wrap, std::vector<float>& map, std::string& error)
 {
     OIIO::ImageBuf file(filename);
     if (!file.read(0, 0, true, OIIO::TypeDesc::FLOAT)) {
@@ -55,7 +56,7 @@ bool read_control_map(const std::string& filename, const Guide& guide, std::vect
         return false;
     }
     const OIIO::ImageSpec& spec = file.spec();
-    if (spec.width != guide.width || spec.height != guide.height) {
+    if (spec.width != wrap.width || spec.height != wrap.height) {
         error = "control=\"" + filename + "\": expected an image of the picture's size";
         return false;
     }
@@ -68,6 +69,7 @@ bool read_control_map(const std::string& filename, const Guide& guide, std::vect
             value += p[c];
         p += spec.nchannels;
     }
+    map = with_margins(wrap, std::move(map));
     return true;
 }
 
@@ -116,7 +118,8 @@ bool ProgressiveImage::Data::read(const OIIO::ImageBuf& src, std::string& error)
         error = "deep images are not supported: expected one sample for each pixel";
         return false;
     }
-    spec = src.spec();
+    picture = src.spec();
+    spec = picture;
     if (spec.depth > 1) {
         error = "volumes are not supported: expected a picture of depth 1";
         return false;
@@ -129,12 +132,22 @@ bool ProgressiveImage::Data::read(const OIIO::ImageBuf& src, std::string& error)
         error = source.has_error() ? source.geterror() : src.geterror(false);
         return false;
     }
+    if (!find_wrap(picture, options.wrap, wrap, error))
+        return false;
+    stats.wrap = name_of(wrap);
     // What the file stored tells an 8-bit picture that was read as float from a scene-referred one.
     OIIO::ImageSpec stored = spec;
     stored.format = src.nativespec().format;
     whole_numbers = !stored.format.is_floating_point();
     stats.guide = !options.guide.empty() ? options.guide : whole_numbers ? "luma" : "log";
-    return Colour::resolve(stored, options.incolorspace, options.layer, colour, error);
+    if (!Colour::resolve(stored, options.incolorspace, options.layer, colour, error))
+        return false;
+    if (wrap) {
+        source = padded(source, wrap);
+        spec.x = source.spec().x, spec.y = source.spec().y;
+        spec.width = wrap.padded_width(), spec.height = wrap.padded_height();
+    }
+    return true;
 }
 
 /// Leaves `mesh` empty if every pixel is to be a vertex.
@@ -153,7 +166,7 @@ bool ProgressiveImage::Data::find_initial_mesh(const Guide& guide, const Paralle
         };
     std::vector<float> map;
     if (options.control != "gradient" && options.control != "curvature") {
-        if (!read_control_map(options.control, guide, map, error))
+        if (!read_control_map(options.control, wrap, map, error))
             return false;
         sampling.map = map.data();
     }
@@ -217,6 +230,24 @@ Status ProgressiveImage::Data::simplify_guide(const std::vector<Raster>& channel
     simplify_options.parallel = parallel;
     simplify_options.progress = progress;
     return simplify(guide, std::move(simplify_options), hierarchy, guide_bands, &stats.engine);
+}
+
+/// Of a panorama, what the rows count decides the mesh; the bands are those of the guide itself.
+Status ProgressiveImage::Data::build_hierarchy(const std::vector<Raster>& channels, const ParallelFor& parallel,
+                                               const Progress& progress)
+{
+    if (!wrap || wrap.y)
+        return simplify_guide(channels, parallel, progress);
+    const Status status = simplify_guide(weighted_by_latitude(channels, wrap), parallel, progress);
+    if (!status)
+        return status;
+    std::vector<std::vector<float>> samples;
+    std::vector<const float*> pointers;
+    for (const Raster& channel : channels)
+        samples.push_back(to_mesh_pixels(hierarchy, channel.samples.data()));
+    for (const std::vector<float>& channel : samples)
+        pointers.push_back(channel.data());
+    return analyse(hierarchy, pointers, guide_bands, parallel);
 }
 
 Status ProgressiveImage::Data::adopt(const std::vector<Raster>& channels, const StoredHierarchy& stored)
@@ -310,7 +341,7 @@ const Overview* ProgressiveImage::Data::overview(const ParallelFor& parallel, st
     if (log == nullptr || m_overview != nullptr)
         return m_overview.get();
     auto overview = std::make_unique<Overview>();
-    const Status status = look_from_afar(log->luminance, parallel, *overview);
+    const Status status = look_from_afar(log->luminance, wrap, parallel, *overview);
     error = status.error();
     if (status)
         m_overview = std::move(overview);
@@ -385,7 +416,7 @@ bool ProgressiveImage::build(const OIIO::ImageBuf& src, const BuildOptions& opti
     return make(src, options, [&](Data& data, std::string& error) {
         const ParallelFor parallel = pool_loop(nthreads);
         const auto simplify = [&](const auto& guide) {
-            return data.simplify_guide(guide, parallel, progress);
+            return data.build_hierarchy(guide, parallel, progress);
         };
         return data.hierarchy_of_guide(simplify, parallel, error);
     });
@@ -395,9 +426,23 @@ bool ProgressiveImage::adopt(const OIIO::ImageBuf& src, const StoredHierarchy& s
                              int nthreads)
 {
     return make(src, options, [&](Data& data, std::string& error) {
-        return data.hierarchy_of_guide([&](const auto& guide) { return data.adopt(guide, stored); },
-                                       pool_loop(nthreads), error);
+        const ParallelFor parallel = pool_loop(nthreads);
+        const auto adopt = [&](const auto& guide) {
+            return data.wrap ? data.build_hierarchy(guide, parallel, {}) : data.adopt(guide, stored);
+        };
+        return data.hierarchy_of_guide(adopt, parallel, error);
     });
+}
+
+ProgressiveImage ProgressiveImage::unwrapped(const OIIO::ImageBuf& src, int nthreads) const
+{
+    if (!initialized() || !m_data->wrap)
+        return *this;
+    BuildOptions options = m_data->options;
+    options.wrap = "none";
+    ProgressiveImage plain;
+    plain.build(src, options, nthreads);
+    return plain;
 }
 
 bool ProgressiveImage::make(const OIIO::ImageBuf& src, const BuildOptions& options, const MakeHierarchy& make_hierarchy)
@@ -437,7 +482,7 @@ const OIIO::ImageBuf& ProgressiveImage::source() const
 }
 const OIIO::ImageSpec& ProgressiveImage::spec() const
 {
-    return m_data->spec;
+    return m_data->picture;
 }
 const BuildOptions& ProgressiveImage::options() const
 {

@@ -16,6 +16,7 @@
 #include "source/guide.h"
 #include "source/overview.h"
 #include "source/smoothing_data.h"
+#include "source/wrap/wrap.h"
 
 namespace pimg {
 
@@ -40,8 +41,10 @@ struct PlannedChannels {
 };
 
 struct ProgressiveImage::Data {
-    OIIO::ImageBuf source;
-    OIIO::ImageSpec spec;
+    OIIO::ImageBuf source;    ///< with the margins of `wrap`
+    OIIO::ImageSpec spec;     ///< of the picture that was given, with these margins
+    OIIO::ImageSpec picture;  ///< of the picture that was given
+    Wrap wrap;
     BuildOptions options;
     Colour colour;
     bool whole_numbers = false;  ///< the source stores integers, which are 0..1 here; all scales depend on this
@@ -92,6 +95,7 @@ struct ProgressiveImage::Data {
     bool read(const OIIO::ImageBuf& src, std::string& error);
     bool hierarchy_of_guide(const MakeHierarchy& make_hierarchy, const ParallelFor& parallel, std::string& error);
     Status simplify_guide(const std::vector<Raster>& guide, const ParallelFor& parallel, const Progress& progress);
+    Status build_hierarchy(const std::vector<Raster>& guide, const ParallelFor& parallel, const Progress& progress);
     Status adopt(const std::vector<Raster>& guide, const StoredHierarchy& stored);
     bool find_initial_mesh(const Guide& guide, const ParallelFor& parallel, const Progress& progress, InitialMesh& mesh,
                            std::string& error) const;

@@ -8,6 +8,7 @@
 
 #include "source/lab.h"
 #include "source/progressive_image_data.h"
+#include "source/wrap/wrapped_pieces.h"
 
 namespace pimg {
 
@@ -50,16 +51,17 @@ std::vector<bool> is_mixed(const std::vector<Index>& labels, Index count, const 
 }
 
 /// Labels dual pieces of one colour, and each pixel of the other pieces.
-bool uniform_pieces(const Hierarchy& hierarchy, const Channels& lab, std::vector<Index>& labels, std::string& error)
+bool uniform_pieces(const Hierarchy& hierarchy, const Wrap& wrap, const Channels& lab, std::vector<Index>& labels,
+                    std::string& error)
 {
     DualPieces pieces;
     if (const Status status = DualPieces::from_hierarchy(hierarchy, pieces); !status) {
         error = status.error();
         return false;
     }
-    const Level level = hierarchy.level_of_vertices(kPieceFraction * double(lab[0].size()));
-    const Index count = pieces.count(level);
-    labels = pieces.labels(level);
+    const Level level = hierarchy.level_of_vertices(kPieceFraction * double(hierarchy.mesh_pixels()));
+    Index count = pieces.count(level);
+    labels = wrapped_pieces(wrap, pieces.labels(level), count);
     const std::vector<bool> mixed = is_mixed(labels, count, lab);
     for (std::size_t p = 0; p < labels.size(); ++p)
         if (mixed[labels[p]])
@@ -73,24 +75,28 @@ std::shared_ptr<const RegionTree> ProgressiveImage::Data::region_tree(std::size_
                                                                       std::string& error)
 {
     const std::unique_lock<std::mutex> lock = lock_or_stop(m_mutex);
-    const std::size_t pixels = spec.image_pixels();
+    const std::size_t pixels = picture.image_pixels();
     if (m_regions != nullptr && (m_regions->leaves() >= kPiecesPerRegion * regions || m_regions->leaves() == pixels))
         return m_regions;
-    const Channels lab = lab_channels(source, colour, parallel);
-    ChannelsView picture { spec.width, spec.height, {} };
-    for (const std::vector<float>& channel : lab)
-        picture.channels.push_back(channel.data());
+    Channels lab = lab_channels(source, colour, parallel);
+    ChannelsView seen { picture.width, picture.height, {} };
+    for (std::vector<float>& channel : lab) {
+        channel = without_margins(wrap, std::move(channel));
+        seen.channels.push_back(channel.data());
+    }
     RegionOptions region_options;
+    region_options.wrap_x = wrap.x;
+    region_options.wrap_y = wrap.y;
     std::vector<Index> labels;
     auto tree = std::make_shared<RegionTree>();
     Status status;
-    if (kPiecesPerRegion * regions < pixels && uniform_pieces(hierarchy, lab, labels, error)) {
+    if (kPiecesPerRegion * regions < pixels && uniform_pieces(hierarchy, wrap, lab, labels, error)) {
         region_options.pieces = &labels;
-        status = RegionTree::build(picture, region_options, *tree);
+        status = RegionTree::build(seen, region_options, *tree);
     }
     if (status && tree->leaves() < kPiecesPerRegion * regions) {
         region_options.pieces = nullptr;
-        status = RegionTree::build(picture, region_options, *tree);
+        status = RegionTree::build(seen, region_options, *tree);
     }
     if (!status) {
         error = status.error();

@@ -133,6 +133,11 @@ bool save(const DocumentState& document, const FilterStack& stack, const std::st
             : build(*result.pixels, options_of_next(document.build), stop, error);
         if (!image)
             return false;
+        image = std::make_shared<const pimg::ProgressiveImage>(image->unwrapped(*result.pixels));
+        if (!image->initialized()) {
+            error = image->error();
+            return false;
+        }
     }
     pimgtool::OutputPicture out {
         *result.pixels, document.stored, result.linear_light, result.labels, image ? &image->hierarchy() : nullptr,

@@ -16,6 +16,7 @@
 
 #include "frame/image_filter.h"
 #include "ops/painting/painting.h"
+#include "ops/painting/wrapped_marks.h"
 #include "source/lab.h"
 
 namespace pimg {
@@ -83,14 +84,15 @@ ChannelsView view_of(const ProgressiveImage::Data& data, const Channels& channel
 bool fill_inkwells(ProgressiveImage::Data& data, const InkOptions& options, const Channels& lab,
                    const ParallelFor& parallel, Sitter& sitter, std::string& error)
 {
-    const Index count = Index(std::min<std::size_t>(kRegions, data.spec.image_pixels()));
+    const Index count = Index(std::min<std::size_t>(kRegions, data.picture.image_pixels()));
     const auto tree = data.region_tree(count, parallel, error);
     if (tree == nullptr)
         return false;
     const std::vector<Index> labels = tree->labels(count);
     std::vector<RegionColour> regions(count, RegionColour { {}, 0.0f });
     for (std::size_t c = 0; c < 3; ++c) {
-        const std::vector<float> means = label_means(labels, count, lab[c].data());
+        const std::vector<float> samples = without_margins(data.wrap, lab[c]);
+        const std::vector<float> means = label_means(labels, count, samples.data());
         for (Index i = 0; i < count; ++i)
             regions[i].lab[c] = means[i];
     }
@@ -101,6 +103,7 @@ bool fill_inkwells(ProgressiveImage::Data& data, const InkOptions& options, cons
     inks.reserve(labels.size());
     for (const Index label : labels)
         inks.push_back(float(choice.ink_of_region[label]));
+    inks = with_margins(data.wrap, std::move(inks));
     for (const float ink : to_mesh_pixels(data.hierarchy, inks.data()))
         sitter.ink_of.push_back(std::uint8_t(ink));
     sitter.picture.inks = choice.inks;
@@ -162,8 +165,8 @@ bool find_pen(const InkOptions& options, const ProgressiveImage::Data& data, Pap
               std::string& error)
 {
     Drawing sheet;
-    sheet.width = data.hierarchy.mesh_width();
-    sheet.height = data.hierarchy.mesh_height();
+    sheet.width = data.wrap ? data.wrap.width : data.hierarchy.mesh_width();
+    sheet.height = data.wrap ? data.wrap.height : data.hierarchy.mesh_height();
     const double scale = millimetres_per_pixel(sheet, paper);
     pen = options.width > 0.0f ? options.width : std::max(kFinestPen, float(double(options.pen) / scale));
     if (double(pen) * kMostPens >= double(std::max(sheet.width, sheet.height)))
@@ -225,15 +228,19 @@ bool draw(ProgressiveImage::Data& data, const InkOptions& options, const Paralle
     settings.parallel = parallel;
     Drawing drawing;
     draw_ink(sitter.picture, settings, drawing);
+    drawing = wrapped_drawing(data.wrap, drawing);
     if (options.sort)
         sort_lines(drawing);
     if (!write_drawing(options, drawing, sheet, settings.width, error))
         return false;
     Canvas canvas { drawing.width, drawing.height, {}, nullptr };
-    paper.assign(std::size_t(data.colour.count()), std::vector<float>(data.hierarchy.mesh_pixels(), 1.0f));
+    paper.assign(std::size_t(data.colour.count()),
+                 std::vector<float>(std::size_t(drawing.width) * std::size_t(drawing.height), 1.0f));
     for (std::vector<float>& channel : paper)
         canvas.channels.push_back(channel.data());
     render_drawing(drawing, ink_values(data, drawing), canvas, parallel);
+    for (std::vector<float>& channel : paper)
+        channel = with_margins(data.wrap, std::move(channel));
     return true;
 }
 

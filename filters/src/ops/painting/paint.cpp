@@ -13,6 +13,7 @@
 
 #include "frame/image_filter.h"
 #include "ops/painting/painting.h"
+#include "ops/painting/wrapped_marks.h"
 
 namespace pimg {
 namespace ImageBufAlgo {
@@ -36,7 +37,7 @@ bool fitted(const std::string& filename, const ProgressiveImage::Data& data, int
     ImageBuf file, resized;
     if (!read_picture(filename, file, error))
         return false;
-    OIIO::ImageSpec spec(data.spec.width, data.spec.height, file.nchannels(), OIIO::TypeDesc::FLOAT);
+    OIIO::ImageSpec spec(data.picture.width, data.picture.height, file.nchannels(), OIIO::TypeDesc::FLOAT);
     resized.reset(spec);
     file.set_origin(0, 0);
     file.set_full(0, file.spec().width, 0, file.spec().height, 0, 1);
@@ -47,12 +48,13 @@ bool fitted(const std::string& filename, const ProgressiveImage::Data& data, int
     picture.width = data.hierarchy.mesh_width();
     picture.height = data.hierarchy.mesh_height();
     for (int c = 0; c < channels; ++c) {
-        std::vector<float> samples(data.spec.image_pixels());
+        std::vector<float> samples(spec.image_pixels());
         const int from = std::min(c, file.nchannels() - 1);
         resized.get_pixels(OIIO::ROI(0, spec.width, 0, spec.height, 0, 1, from, from + 1), OIIO::TypeDesc::FLOAT,
                            samples.data());
         for (float& sample : samples)
             sample = std::isfinite(sample) ? sample : 0.0f;
+        samples = with_margins(data.wrap, std::move(samples));
         picture.channels.push_back(to_mesh_pixels(data.hierarchy, samples.data()));
     }
     return true;
@@ -195,8 +197,10 @@ bool paint_canvas(ProgressiveImage::Data& data, const PaintOptions& options, con
     ChannelsView ground = picture.view();
     if (!studio.alpha.empty())
         ground.channels.push_back(studio.alpha.data());
-    const ShownColours colours = stroke_colours(strokes, ground, guides, parallel);
-    if (!write_strokes(options.strokes, strokes, shown(colours, data), options.opacity, "", error))
+    ShownColours colours = stroke_colours(strokes, ground, guides, parallel);
+    wrap_strokes(data.wrap, options.max, strokes, colours);
+    if (!write_strokes(options.strokes, without_margins(data.wrap, strokes), shown(colours, data), options.opacity, "",
+                       error))
         return false;
 
     std::vector<float> relief(options.impasto > 0.0f ? data.hierarchy.mesh_pixels() : 0, 0.0f);
@@ -235,7 +239,7 @@ bool on_hierarchy::paint(ImageBuf& dst, const ProgressiveImage& src, const Paint
         if (!load(options, data, studio, error) || !paint_canvas(data, options, parallel, studio, error))
             return false;
         const bool untouched = options.opacity == 0.0f && studio.on_the_picture;
-        result = { std::move(studio.canvas.channels), untouched ? Specials::restored : Specials::replaced };
+        result = { std::move(studio.canvas.channels), untouched ? Specials::restored : Specials::replaced, Seams::cut };
         return true;
     };
     return filter_picture({ dst, src, roi, nthreads }, options, ResultType::as_source, make);

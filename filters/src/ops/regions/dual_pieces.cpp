@@ -6,6 +6,7 @@
 #include <pimg/imagebufalgo.h>
 
 #include "ops/regions/partition.h"
+#include "source/wrap/wrapped_pieces.h"
 
 namespace pimg {
 namespace ImageBufAlgo {
@@ -28,8 +29,9 @@ bool on_hierarchy::dual_pieces(ImageBuf& dst, const ProgressiveImage& src, const
             set_error(dst, status.error());
             return false;
         }
-        return write_partition(dst, *src.data(), roi, pool_loop(nthreads),
-                               { pieces.count(level), pieces.labels(level) }, options.output);
+        Partition partition { pieces.count(level), {} };
+        partition.labels = wrapped_pieces(src.data()->wrap, pieces.labels(level), partition.count);
+        return write_partition(dst, *src.data(), roi, pool_loop(nthreads), partition, options.output);
     });
 }
 

@@ -14,15 +14,17 @@ using OIIO::ROI;
 
 /// 1 where a pixel and its right or lower neighbour are of different parts, else 0.
 void write_boundaries(ImageBuf& dst, const ProgressiveImage::Data& data, ROI roi, const ParallelFor& parallel,
-                      const std::vector<Index>& labels)
+                      const Partition& partition)
 {
     const OIIO::ImageSpec& spec = data.spec;
     const int width = spec.width, height = spec.height;
-    write_rows(dst, data, roi, parallel, [&](int y, float* row) {
-        for (int x = roi.xbegin - spec.x; x < roi.xend - spec.x; ++x, row += spec.nchannels) {
-            const Index* here = &labels[std::size_t(y - spec.y) * std::size_t(width) + std::size_t(x)];
+    const std::vector<Index> labels = with_margins(data.wrap, partition.labels);
+    write_rows(dst, data, roi, parallel, [&](const RowSpan& span, float* row) {
+        const int y = span.y - spec.y;
+        for (int x = span.xbegin - spec.x; x < span.xend - spec.x; ++x, row += spec.nchannels) {
+            const Index* here = &labels[std::size_t(y) * std::size_t(width) + std::size_t(x)];
             const bool ends =
-                (x + 1 < width && here[1] != *here) || (y - spec.y + 1 < height && here[std::size_t(width)] != *here);
+                (x + 1 < width && here[1] != *here) || (y + 1 < height && here[std::size_t(width)] != *here);
             *row = ends ? 1.0f : 0.0f;
         }
     });
@@ -34,11 +36,11 @@ std::vector<std::vector<float>> part_means(const ProgressiveImage::Data& data, c
     std::vector<std::vector<float>> results;
     for (int i = 0; i < data.colour.count(); ++i) {
         stop_point();
-        std::vector<float> samples = channel_samples(data, data.colour.channel(i));
+        std::vector<float> samples = without_margins(data.wrap, channel_samples(data, data.colour.channel(i)));
         const std::vector<float> means = label_means(partition.labels, partition.count, samples.data());
         for (std::size_t k = 0; k < samples.size(); ++k)
             samples[k] = means[partition.labels[k]];
-        results.push_back(std::move(samples));
+        results.push_back(with_margins(data.wrap, std::move(samples)));
     }
     return results;
 }
@@ -58,15 +60,16 @@ bool write_partition(ImageBuf& dst, const ProgressiveImage::Data& data, ROI roi,
                      const Partition& partition, const std::string& output)
 {
     if (output == "labels") {
-        const std::size_t width = std::size_t(data.spec.width);
-        const std::size_t first = std::size_t(roi.ybegin - data.spec.y) * width + std::size_t(roi.xbegin - data.spec.x);
+        const OIIO::ImageSpec& spec = data.picture;
+        const std::size_t width = std::size_t(spec.width);
+        const std::size_t first = std::size_t(roi.ybegin - spec.y) * width + std::size_t(roi.xbegin - spec.x);
         dst.specmod().attribute(kLabelCount, int(partition.count));
         return write_labels(dst, roi, partition.labels.data() + first, width, partition.count);
     }
     if (output == "mean")
         write_channels(dst, data, roi, parallel, part_means(data, partition), Specials::replaced);
     else
-        write_boundaries(dst, data, roi, parallel, partition.labels);
+        write_boundaries(dst, data, roi, parallel, partition);
     return true;
 }
 

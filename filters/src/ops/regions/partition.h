@@ -9,7 +9,7 @@
 
 namespace pimg {
 
-/// Every pixel's part.
+/// Every pixel's part, of the picture without margins.
 struct Partition {
     Index count = 0;            ///< of the parts
     std::vector<Index> labels;  ///< row-major, 0 .. count - 1

@@ -17,6 +17,14 @@ namespace pimg {
 
 namespace {
 
+/// Where sides meet, a place is shown again a period further on; that which is nearest to `middle`.
+int nearest(int at, double middle, bool meets, int period)
+{
+    if (!meets)
+        return at;
+    return at + int(std::lround((middle - at) / period)) * period;
+}
+
 struct Region {
     double pixels = 0, x = 0, y = 0;
     int xmin = std::numeric_limits<int>::max(), ymin = xmin, xmax = -1, ymax = -1;
@@ -24,8 +32,12 @@ struct Region {
 
     explicit Region(std::size_t channels) : mean(channels, 0.0), squares(channels, 0.0) { }
 
-    void add(int px, int py, const float* samples)
+    void add(int px, int py, const float* samples, const Wrap& wrap)
     {
+        if (pixels > 0.0) {
+            px = nearest(px, x, wrap.x, wrap.width);
+            py = nearest(py, y, wrap.y, wrap.height);
+        }
         pixels += 1.0;
         x += (px - x) / pixels;
         y += (py - y) / pixels;
@@ -39,16 +51,29 @@ struct Region {
             squares[c] += before * (double(samples[c]) - mean[c]);
         }
     }
+
+    /// Moves the centroid into the picture. A box may then reach beyond a side: the region continues at the other.
+    void move_into(const Wrap& wrap)
+    {
+        const int right = wrap.x && x < -0.5 ? wrap.width : wrap.x && x >= wrap.width - 0.5 ? -wrap.width : 0;
+        const int down = wrap.y && y < -0.5 ? wrap.height : wrap.y && y >= wrap.height - 0.5 ? -wrap.height : 0;
+        x += right, xmin += right, xmax += right;
+        y += down, ymin += down, ymax += down;
+    }
 };
 
-std::vector<Region> measure(const OIIO::ImageBuf& picture, const std::vector<Index>& labels, Index regions)
+std::vector<Region> measure(const ProgressiveImage::Data& data, const Partition& regions)
 {
-    const std::size_t channels = std::size_t(picture.nchannels());
-    std::vector<Region> all(regions, Region(channels));
-    const float* samples = static_cast<const float*>(picture.localpixels());
-    const int width = picture.spec().width;
-    for (std::size_t p = 0; p < labels.size(); ++p, samples += channels)
-        all[labels[p]].add(int(p % std::size_t(width)), int(p / std::size_t(width)), samples);
+    const std::size_t channels = std::size_t(data.source.nchannels());
+    std::vector<Region> all(regions.count, Region(channels));
+    const float* samples = static_cast<const float*>(data.source.localpixels());
+    const int width = data.picture.width;
+    for (std::size_t p = 0; p < regions.labels.size(); ++p) {
+        const int x = int(p % std::size_t(width)), y = int(p / std::size_t(width));
+        all[regions.labels[p]].add(x, y, samples + data.wrap.place(x, y) * channels, data.wrap);
+    }
+    for (Region& region : all)
+        region.move_into(data.wrap);
     return all;
 }
 
@@ -97,16 +122,16 @@ std::string json(const Fields& record)
 
 }  // namespace
 
-bool write_region_report(const OIIO::ImageBuf& picture, const std::vector<Index>& labels, Index regions,
-                         const std::string& filename, std::string& error)
+bool write_region_report(const ProgressiveImage::Data& data, const Partition& regions, const std::string& filename,
+                         std::string& error)
 {
     const bool as_json = OIIO::Strutil::iends_with(filename, ".json");
-    const std::vector<Region> all = measure(picture, labels, regions);
+    const std::vector<Region> all = measure(data, regions);
     std::string text = as_json ? "[\n" : "";
-    for (Index r = 0; r < regions; ++r) {
-        const Fields record = fields(picture.spec(), r, all[r]);
+    for (Index r = 0; r < regions.count; ++r) {
+        const Fields record = fields(data.picture, r, all[r]);
         if (as_json)
-            text += json(record) + (r + 1 < regions ? ",\n" : "\n]\n");
+            text += json(record) + (r + 1 < regions.count ? ",\n" : "\n]\n");
         else
             text += (r == 0 ? csv(record, true) : "") + csv(record, false);
     }

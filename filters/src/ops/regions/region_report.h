@@ -5,17 +5,15 @@
 #include <string>
 #include <vector>
 
-#include <OpenImageIO/imagebuf.h>
-
-#include <pimg/types.h>
+#include "ops/regions/partition.h"
 
 namespace pimg {
 
 /// Writes one record per region to `filename`: JSON if its extension says so, else CSV with a header line. Fields:
 /// label, pixels, centroid x and y, bounding box xmin ymin xmax ymax (inclusive), and mean and standard deviation of
-/// every channel of `picture` (float, local), in the picture's own coordinates and units. Returns false with a line in
-/// `error` when the file cannot be written.
-bool write_region_report(const OIIO::ImageBuf& picture, const std::vector<Index>& labels, Index regions,
-                         const std::string& filename, std::string& error);
+/// every channel, in the picture's own coordinates and units. Where sides of the picture meet, the centroid of a region
+/// that crosses the seam is the mean on the circle. Returns false with a line in `error` when the file cannot be written.
+bool write_region_report(const ProgressiveImage::Data& data, const Partition& regions, const std::string& filename,
+                         std::string& error);
 
 }  // namespace pimg

@@ -22,7 +22,7 @@ constexpr int kDefaultRegions = 200;
 bool find_regions(ProgressiveImage::Data& data, const SegmentOptions& options, const ParallelFor& parallel,
                   Partition& regions, std::string& error)
 {
-    const std::size_t pixels = data.spec.image_pixels();
+    const std::size_t pixels = data.picture.image_pixels();
     const bool by_threshold = options.threshold >= 0.0f;
     if (options.regions > 0 && std::size_t(options.regions) > pixels) {
         error = format("regions={}: expected at most {}, the picture's pixels", options.regions, pixels);
@@ -50,8 +50,7 @@ bool on_hierarchy::segment(ImageBuf& dst, const ProgressiveImage& src, const Seg
         Partition regions;
         std::string error;
         if (!find_regions(data, options, parallel, regions, error)
-            || (!options.stats.empty()
-                && !write_region_report(data.source, regions.labels, regions.count, options.stats, error))) {
+            || (!options.stats.empty() && !write_region_report(data, regions, options.stats, error))) {
             set_error(dst, error);
             return false;
         }
