@@ -118,8 +118,8 @@ bool pimg_render(const pimg_image* image, const char* filter, const pimg_pixels*
             || !pimg::split_options(colon == text.npos ? "" : text.substr(colon + 1), texts, message)
             || !row->bind(texts, run, message))
             return false;
-        // A window far away is fine and nothing happens; one whose edges are no numbers any more is not. INT_MIN also
-        // is OpenImageIO's word for everything.
+        // A window far away from the picture is allowed, and then nothing is written. But its edges must be numbers of
+        // type int, and OpenImageIO takes INT_MIN for "everything".
         constexpr int kFar = 1 << 30;
         if (x < -kFar || x > kFar || y < -kFar || y > kFar) {
             message = format("x, y: {}, {}: expected a place within {} pixels of the origin", x, y, kFar);

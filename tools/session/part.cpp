@@ -132,9 +132,9 @@ bool keep_picture(const ImageBuf*& source, ImageBuf& kept, const ImageOutput& ou
     pimg::Colour colour;
     if (!pimg::Colour::resolve(source->spec(), "", layer, colour, report.error))
         return false;
-    std::vector<int> order;
-    for (int i = 0; i < (colour.count() == 2 ? 1 : colour.count()); ++i)
-        order.push_back(colour.channel(i));
+    std::vector<int> order(std::size_t(colour.count() == 2 ? 1 : colour.count()));
+    for (std::size_t i = 0; i < order.size(); ++i)
+        order[i] = colour.channel(int(i));
     if (colour.alpha() >= 0 && out.supports("alpha"))
         order.push_back(colour.alpha());
     std::vector<std::string> names, left_out;
@@ -193,7 +193,7 @@ bool keeps_labels(ImageOutput& out, const std::string& scratch, const ImageSpec&
     return kept;
 }
 
-/// Labels are numbers: a codec that changes them a little makes others of them.
+/// Chooses a lossless codec for labels: a lossy one would turn them into other numbers.
 bool avoid_lossy_codec(const OutputPicture& picture, ImageOutput& out, const std::string& scratch, ImageSpec& spec,
                        const OutputReport& report)
 {

@@ -23,13 +23,13 @@ struct Part {
     bool is_encoded = false;  ///< as sRGB, for display
 };
 
-/// Makes what is written of a picture to a file called `filename` by the writer `out`. `scratch` is the name of a file that
-/// is written and removed meanwhile. Where OpenImageIO offers no question to ask a writer, it is asked to write a small
-/// picture there. False, with a line in the report, if the format cannot hold the picture.
+/// Makes what is written of a picture to a file called `filename` by the writer `out`. `scratch` is the name of a file
+/// that is written and removed meanwhile: some properties of a writer are only found by writing a small picture. False,
+/// with a line in the report, if the format cannot hold the picture.
 bool make_part(const OutputPicture& picture, const std::string& filename, OIIO::ImageOutput& out,
                const std::string& scratch, Part& part, const OutputReport& report);
 
-/// Gives `part` what OpenEXR wants all parts of a file to have in common: that of the header `first`.
+/// Copies from the header `first` to `part` the attributes that all parts of an OpenEXR file must have in common.
 void share_attributes(const OIIO::ImageSpec& first, OIIO::ImageSpec& part);
 
 /// Adds to a line of warnings.

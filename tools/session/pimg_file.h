@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// .pimg files are read and written by the reader and writer linked in, whatever plugin $OIIO_LIBRARY_PATH names: they
-// hand over hierarchies, too.
+// .pimg files are read and written by the reader and writer that are linked in, whatever plugin $OIIO_LIBRARY_PATH
+// names, because these also hand over hierarchies.
 #pragma once
 
 #include <memory>
@@ -17,8 +17,8 @@ namespace pimgtool {
 /// The hierarchy in a file, to be read when it is needed.
 class StoredHierarchy {
 public:
-    /// Null if the file has none, or if the picture that was read, of which `spec` is the header, is not the one it is of:
-    /// colours that the reader has multiplied by alpha make another hierarchy.
+    /// Null if the file has none, or if it is not that of the picture as it was read, whose header is `spec`: a reader
+    /// may have multiplied colours by alpha, which makes another hierarchy.
     static std::shared_ptr<StoredHierarchy> open(const std::string& filename, const OIIO::ImageSpec& spec);
 
     /// `pixels` is the picture in the file.

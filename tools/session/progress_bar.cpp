@@ -41,10 +41,10 @@ void ProgressBar::show(float done)
     if (!m_terminal || Clock::now() < m_next)
         return;
     m_next = Clock::now() + std::chrono::milliseconds(100);
-    constexpr std::size_t width = 32;
+    constexpr std::size_t kWidth = 32;
     const float share = std::clamp(done, 0.0f, 1.0f);
-    const std::size_t filled = std::size_t(share * float(width));
-    const std::string bar = std::string(filled, '#') + std::string(width - filled, '.');
+    const std::size_t filled = std::size_t(share * float(kWidth));
+    const std::string bar = std::string(filled, '#') + std::string(kWidth - filled, '.');
     const std::string line = pimg::format("{} [{}] {:3.0f} %", m_label, bar, share * 100.0f);
     std::fprintf(stderr, "\r%s", line.c_str());
     std::fflush(stderr);

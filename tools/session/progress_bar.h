@@ -15,7 +15,7 @@ public:
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
 
-    /// From now on no bar is shown: several lines at a time would be none.
+    /// From now on no bar is shown: the lines of several frames at a time would overwrite each other.
     static void disable();
 
     /// Shows the share done, 0..1.

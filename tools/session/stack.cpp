@@ -28,7 +28,7 @@ PixelTypes pixel_types(const OIIO::ImageSpec& stored)
     return { stored.format, stored.channelformats };
 }
 
-/// Types as -d asks for them: channels of data keep theirs unless named.
+/// The types that -d asks for. Channels that hold data keep their own unless -d names them.
 PixelTypes asked_types(const OIIO::ImageSpec& spec, const PixelTypes& stored, const OutputOptions& output,
                        const std::string& layer)
 {
@@ -59,7 +59,7 @@ std::string describe(const OIIO::ImageSpec& stored)
                   stored.nchannels == 1 ? "" : "s", stored.format.c_str(), meaning_of(stored).description());
 }
 
-/// A file and what was asked of its reader.
+/// A key for a file as it is read: its name and the settings of the reader.
 std::string key_of(const std::string& filename, const InputOptions& settings)
 {
     std::string key = filename + "\n" + settings.part;
@@ -177,7 +177,7 @@ bool Session::write(const std::string& filename, const pimg::io::WriteOptions& o
         return fail(format("cannot write \"{}\": {}", filename, error));
     if (!warning.empty())
         std::fprintf(stderr, "pimgtool: warning: \"%s\": %s\n", filename.c_str(), warning.c_str());
-    // What will be read under this name is the new file.
+    // From now on this name means the new file, so pictures kept of the old one are dropped.
     for (auto kept = m_kept.begin(); kept != m_kept.end();)
         kept = kept->second.name == filename ? m_kept.erase(kept) : std::next(kept);
     OIIO::ImageCache::create(true)->invalidate(OIIO::ustring(filename), true);
@@ -187,7 +187,7 @@ bool Session::write(const std::string& filename, const pimg::io::WriteOptions& o
 
 bool Session::build(const pimg::BuildOptions& options)
 {
-    // Copies made earlier keep theirs.
+    // Copies that were made earlier keep their hierarchy.
     const auto set = [&](Picture& picture) {
         if (!pimg::same_options(picture.hierarchy->options, options))
             picture.hierarchy = std::make_shared<LazyHierarchy>(LazyHierarchy { options, nullptr, {} });
@@ -249,7 +249,7 @@ bool Session::filter(Picture& picture, const Filter& run, Meaning meaning)
     if (!run(*result, *source))
         return fail(result->has_error() ? result->geterror() : "failed");
     picture.pixels = result;
-    // What was asked of the first build holds for the next, but for the colour space: the result states its own.
+    // The options of the first build hold for the next one, except the colour space, which the result states itself.
     const pimg::BuildOptions options = picture.hierarchy->options;
     picture.hierarchy = std::make_shared<LazyHierarchy>();
     picture.hierarchy->options = options;
@@ -275,7 +275,7 @@ bool Session::hdr_compress(pimg::HdrCompressOptions options)
         return measured = true;
     }
     anchors.apply(options);
-    // All parts are exposed alike, as views and passes of one scene are to be seen together.
+    // All parts get the same exposure, because they are views and passes of one scene.
     if (!top().others.empty() && !iba::resolve_hdr_compress(*top().pixels, options, m_error, top().hierarchy->options))
         return false;
     const auto run = [&](OIIO::ImageBuf& dst, const pimg::ProgressiveImage& src) {

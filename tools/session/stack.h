@@ -66,14 +66,15 @@ public:
     /// Replaces the top picture by the result of a filter on its hierarchy.
     bool filter(const Filter& run, Meaning meaning = Meaning::as_before);
 
-    /// The filter of that name, with the anchors; or, measuring, only finds them.
+    /// hdr_compress() with the anchors. While a shot is measured, only finds the anchors.
     bool hdr_compress(pimg::HdrCompressOptions options);
 
     /// Replaces the pixels of the top picture by those an operation without hierarchy makes of them, and likewise those
     /// of the other parts that hold a picture.
     bool change_pixels(const PixelOperation& run);
 
-    /// Runs `work` on the top picture and on the other parts of its file that hold a picture. Nothing changes if it fails.
+    /// Runs `work` on the top picture and on the other parts of its file that hold a picture. Nothing changes if it
+    /// fails.
     bool for_parts(const std::function<bool(Picture&)>& work);
 
     bool fail(std::string message);
@@ -92,7 +93,7 @@ public:
     bool verbose = false;
 
     pimg::Anchors anchors;   ///< of the frame, known from the shot or measured
-    bool measuring = false;  ///< the anchors are to be found, nothing else
+    bool measuring = false;  ///< only the anchors are to be found
     bool measured = false;
 
 private:
