@@ -8,7 +8,11 @@
 namespace pimg {
 namespace {
 
-constexpr std::int32_t k = kSubpixels;
+/// The place of pixel (x, y) on the lattice.
+constexpr Point at(int x, int y)
+{
+    return { x * kSubpixels, y * kSubpixels };
+}
 
 //   0 ---- 1       a square with a vertex in the middle
 //   | \  / |
@@ -18,9 +22,8 @@ constexpr std::int32_t k = kSubpixels;
 Mesh square()
 {
     Mesh mesh;
-    const Status s =
-        Mesh::from_triangles({ { 0, 0 }, { 4 * k, 0 }, { 4 * k, 4 * k }, { 0, 4 * k }, { 2 * k, 2 * k } },
-                             { { 0, 1, 4 }, { 1, 2, 4 }, { 2, 3, 4 }, { 3, 0, 4 } }, { 4 * k, 4 * k }, mesh);
+    const Status s = Mesh::from_triangles({ at(0, 0), at(4, 0), at(4, 4), at(0, 4), at(2, 2) },
+                                          { { 0, 1, 4 }, { 1, 2, 4 }, { 2, 3, 4 }, { 3, 0, 4 } }, at(4, 4), mesh);
     EXPECT_TRUE(s.ok()) << s.error();
     return mesh;
 }
@@ -38,11 +41,11 @@ TEST(Mesh, CountsAndRings)
 TEST(Mesh, SplitOfAnInnerVertexAddsTwoTriangles)
 {
     Mesh mesh = square();
-    ASSERT_TRUE(mesh.split(4, 0, 2, { 1 * k, 3 * k }, { 3 * k, 1 * k }));
+    ASSERT_TRUE(mesh.split(4, 0, 2, at(1, 3), at(3, 1)));
     EXPECT_TRUE(mesh.validate().ok()) << mesh.validate().error();
     EXPECT_EQ(mesh.triangle_count(), 6u);
-    EXPECT_EQ(mesh.point(4), (Point { 1 * k, 3 * k }));
-    EXPECT_EQ(mesh.point(5), (Point { 3 * k, 1 * k }));
+    EXPECT_EQ(mesh.point(4), at(1, 3));
+    EXPECT_EQ(mesh.point(5), at(3, 1));
 }
 
 TEST(Mesh, CollapseUndoesSplit)
@@ -53,8 +56,8 @@ TEST(Mesh, CollapseUndoesSplit)
                 continue;
             Mesh mesh = square();
             const auto before = mesh.triangles();
-            ASSERT_TRUE(mesh.split(4, vl, vr, { 2 * k, 2 * k }, { 2 * k + 1, 2 * k + 1 }));
-            ASSERT_TRUE(mesh.collapse(4, { 2 * k, 2 * k }));
+            ASSERT_TRUE(mesh.split(4, vl, vr, at(2, 2), { at(2, 2).x + 1, at(2, 2).y + 1 }));
+            ASSERT_TRUE(mesh.collapse(4, at(2, 2)));
             EXPECT_TRUE(mesh.validate().ok());
             EXPECT_EQ(mesh.triangles(), before);
         }
@@ -64,7 +67,7 @@ TEST(Mesh, SplitOfACornerAlongTheBorder)
 {
     Mesh mesh = square();
     // Right of 0 -> new vertex on the upper side is the inside, left of it the ghost.
-    ASSERT_TRUE(mesh.split(0, kGhost, 4, { 0, 0 }, { 2 * k, 0 }));
+    ASSERT_TRUE(mesh.split(0, kGhost, 4, at(0, 0), at(2, 0)));
     EXPECT_TRUE(mesh.validate().ok()) << mesh.validate().error();
     EXPECT_EQ(mesh.triangle_count(), 5u);
 }
@@ -81,14 +84,14 @@ TEST(Mesh, RefusesWhatIsNoNeighbour)
 TEST(Mesh, ValidateFindsAFlippedTriangle)
 {
     Mesh mesh = square();
-    ASSERT_TRUE(mesh.split(4, 0, 2, { 3 * k, 1 * k }, { 1 * k, 3 * k }));  // t and u on the wrong sides
+    ASSERT_TRUE(mesh.split(4, 0, 2, at(3, 1), at(1, 3)));  // t and u on the wrong sides
     EXPECT_FALSE(mesh.validate().ok());
 }
 
 TEST(Mesh, RefusesBrokenTriangulations)
 {
-    const std::vector<Point> corners { { 0, 0 }, { 4 * k, 0 }, { 4 * k, 4 * k }, { 0, 4 * k } };
-    const Point extent { 4 * k, 4 * k };
+    const std::vector<Point> corners { at(0, 0), at(4, 0), at(4, 4), at(0, 4) };
+    const Point extent = at(4, 4);
     Mesh mesh;
     EXPECT_FALSE(Mesh::from_triangles(corners, { { 0, 1, 2 } }, extent, mesh).ok()) << "half is uncovered";
     EXPECT_FALSE(Mesh::from_triangles(corners, { { 0, 2, 1 }, { 0, 3, 2 } }, extent, mesh).ok()) << "wrong way round";

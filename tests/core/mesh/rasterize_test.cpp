@@ -8,12 +8,10 @@
 namespace pimg {
 namespace {
 
-constexpr std::int32_t k = kSubpixels;
-
 Mesh two_triangles(int width, int height)
 {
     Mesh mesh;
-    const Point far { (width - 1) * k, (height - 1) * k };
+    const Point far { (width - 1) * kSubpixels, (height - 1) * kSubpixels };
     EXPECT_TRUE(
         Mesh::from_triangles({ { 0, 0 }, { far.x, 0 }, far, { 0, far.y } }, { { 0, 1, 2 }, { 0, 2, 3 } }, far, mesh)
             .ok());

@@ -10,8 +10,7 @@
 namespace pimg {
 namespace {
 
-class BandsOnScene : public testing::Test {
-protected:
+struct BandsOnScene : testing::Test {
     void SetUp() override
     {
         ASSERT_TRUE(

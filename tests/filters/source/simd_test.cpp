@@ -125,8 +125,7 @@ TEST(FilterVectors, CompressedDetails)
     }
 }
 
-class Recolouring : public testing::Test {
-protected:
+struct Recolouring : testing::Test {
     /// Colours of all kinds: black, negative, far out of gamut, huge.
     Recolouring() : rgb(3 * kCount), compressed(numbers(-60.0f, 60.0f, 6)), guide(numbers(-100.0f, 100.0f, 7))
     {
