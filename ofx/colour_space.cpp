@@ -152,7 +152,8 @@ OfxStatus output_space(const Instance& instance, OfxTime time, const Properties&
     if (!instance.effect().filter->bind(instance.options(Owner::filter, time), filter, error))
         return kOfxStatReplyDefault;
     std::string name = kColourspaceOfClip + std::string(kOfxImageEffectSimpleSourceClipName);
-    if (filter.output == pimg::FilterOutput::labels || filter.output == pimg::FilterOutput::mask)
+    if (filter.output == pimg::FilterOutput::labels || filter.output == pimg::FilterOutput::mask
+        || filter.output == pimg::FilterOutput::gain)
         name = kOfxColourspaceOfxRaw;
     pimg::Colour colour;
     if (filter.output == pimg::FilterOutput::light && source_space(instance, time, OIIO::TypeDesc::FLOAT, space, error)

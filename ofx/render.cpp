@@ -145,7 +145,8 @@ private:
         Placement placement = m_request.placement;
         placement.picture = source.picture();
         placement.is_labels = filter.output == pimg::FilterOutput::labels;
-        placement.has_colours = !placement.is_labels && filter.output != pimg::FilterOutput::mask;
+        placement.has_colours = !placement.is_labels && filter.output != pimg::FilterOutput::mask
+            && filter.output != pimg::FilterOutput::gain;
         choose_rows(m_in, output, placement);
         const int threads = m_instance.host().threads();
         if (fits(placement, source, output)) {

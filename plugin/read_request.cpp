@@ -218,6 +218,7 @@ const char* ReadRequest::only_channel() const
 {
     return m_bound.output == FilterOutput::labels ? "label"
         : m_bound.output == FilterOutput::mask    ? "boundary"
+        : m_bound.output == FilterOutput::gain    ? "gain"
                                                   : nullptr;
 }
 

@@ -37,6 +37,11 @@ FilterOutput output_of(const DualPiecesOptions& options, FilterOutput)
     return output_of(options.output);
 }
 
+FilterOutput output_of(const HdrCompressOptions& options, FilterOutput usual)
+{
+    return options.output == "gain" ? FilterOutput::gain : usual;
+}
+
 /// The name of the file that these options ask to write.
 template<class Options>
 std::string written_by(const Options& options)

@@ -6,8 +6,10 @@ cpp_program.py made of the C++. They find the pictures that make_pictures() writ
 Environment: PIMGTOOL OIIOTOOL PIMG_PLUGIN PYTHONPATH, set by tests/CMakeLists.txt.
 """
 
+import glob
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -90,6 +92,8 @@ def main(page, program=None):
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         make_pictures()
+        for example in glob.glob(os.path.join(os.path.dirname(page), "..", "examples", "*.ocio")):
+            shutil.copy(example, ".")
         for block in all_blocks(page):
             print(f"-- {os.path.basename(page)}:{block.line}", flush=True)
             if block.language == "python":

@@ -131,10 +131,10 @@ class Effects(ofx_host.HostTest):
 
 
 def _split(options):
-    """key=value words of option text; a colon before a digit belongs to the value."""
+    """key=value words of option text; a colon before a digit, sign or point belongs to the value."""
     words = []
     for word in filter(None, options.split(":")):
-        if words and word[0].isdigit():
+        if words and word[0] in "+-.0123456789":
             words[-1] += ":" + word
         else:
             words.append(word)

@@ -256,6 +256,8 @@ bool Session::filter(Picture& picture, const Filter& run, Meaning meaning)
     picture.hierarchy->options.incolorspace.clear();
     if (meaning == Meaning::display_linear)
         picture.linear_light = true;
+    if (meaning == Meaning::gain)
+        picture.stored = pixel_types(result->spec());
     picture.labels = result->spec().format == OIIO::TypeUInt32 && result->spec().find_attribute(pimg::kLabelCount);
     say(format("{}: filtered, {:.3f} s", picture.name, timer.seconds()));
     return true;
@@ -278,10 +280,20 @@ bool Session::hdr_compress(pimg::HdrCompressOptions options)
     // All parts get the same exposure, because they are views and passes of one scene.
     if (!top().others.empty() && !iba::resolve_hdr_compress(*top().pixels, options, m_error, top().hierarchy->options))
         return false;
+    if (options.aovs && !top().others.empty())
+        return fail("aovs: expected layers in one part; output=gain serves the layers of others");
     const auto run = [&](OIIO::ImageBuf& dst, const pimg::ProgressiveImage& src) {
-        return iba::hdr_compress(dst, src, options);
+        return iba::hdr_compress(dst, src, options) && describe_fit(src, options);
     };
-    return filter(run, Meaning::display_linear);
+    return filter(run, options.output == "gain" ? Meaning::gain : Meaning::display_linear);
+}
+
+bool Session::describe_fit(const pimg::ProgressiveImage& image, pimg::HdrCompressOptions options)
+{
+    if (verbose && pimg::ImageBufAlgo::resolve_hdr_compress(image, options, m_error))
+        say(format("{}: s0={:.3g} dmax={:.3g} detail={:.3g} key={:.3g} white={:.3g}", top().name, options.s0,
+                   options.dmax, options.detail, options.key, options.white));
+    return true;
 }
 
 bool Session::change_pixels(const PixelOperation& run)

@@ -43,8 +43,9 @@ struct Picture {
 
 /// What the numbers of a filter's result mean.
 enum class Meaning {
-    as_before,      ///< the same as those of the picture it was made from
-    display_linear  ///< linear light, white at 1
+    as_before,       ///< the same as those of the picture it was made from
+    display_linear,  ///< linear light, white at 1
+    gain             ///< logarithms of factors on light, which are kept as float
 };
 
 /// The stack, and what the operations on it share. Every function that can fail returns false and leaves a line
@@ -99,6 +100,8 @@ public:
 private:
     const pimg::ProgressiveImage* hierarchy_of(const Picture& picture);
     bool filter(Picture& picture, const Filter& run, Meaning meaning);
+    /// With -v, says what hdr_compress() found.
+    bool describe_fit(const pimg::ProgressiveImage& image, pimg::HdrCompressOptions options);
     bool change_pixels(Picture& picture, const PixelOperation& run);
     OutputPicture output_of(const Picture& picture) const;
 

@@ -24,7 +24,8 @@ enum class FilterOutput {
     unbounded,  ///< a picture whose samples may leave that range
     light,      ///< linear light as floats, 1 is white
     labels,     ///< one channel of whole numbers from 0 that are not scaled to any range (labels.h)
-    mask        ///< one channel, 0 or 1
+    mask,       ///< one channel, 0 or 1
+    gain        ///< one channel: the base-2 logarithm of a factor, as float
 };
 
 /// A filter together with options that have been checked. It is called like the functions of imagebufalgo.h.

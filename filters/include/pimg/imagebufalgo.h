@@ -74,10 +74,19 @@ bool ink(ImageBuf& dst, const ProgressiveImage& src, const InkOptions& options, 
 /// of the coarser vertices around, and with the rest of the weight the contrast of the coarser faces they correct, or
 /// their own if it is larger. Then exposure and white are fitted to the display, unless fit = 0.
 ///
-/// The result is linear light for a display, 0..1 with white at 1, in the primaries of the source, which oiio:ColorSpace
-/// names. Hue and saturation are those of the source. 8-bit and other encoded sources are decoded first. NaN becomes the
-/// mean of what is around it, and +Inf white. With fit = 0 the result is in the units of the decoded source, and s0 = 1
-/// then returns the decoded source. dst: float.
+/// `fine`, `medium` and `coarse` are stops by which the gain of details is raised, by their size; `shadows`, `midtones`,
+/// `highlights` or the curve `zones` raise parts of the picture by how light the scene is there.
+///
+/// The option `output` says what the result is. dst: float.
+///   display  (the default) Linear light for a display, with white at 1, and up to peak / 203 for an HDR display, in the
+///            primaries of the source, which oiio:ColorSpace names. Hue and saturation are those of the source. NaN
+///            becomes the mean of what is around it, and +Inf white.
+///   scene    Scene-linear light, before any mapping to a display: the source times 2^gain. What has a luminance of 0.18
+///            keeps it. With `aovs`, the colours of all layers that hold light get the same factor; data, albedo and
+///            masks do not.
+///   gain     That gain, the base-2 logarithm of the factor, as one channel.
+/// 8-bit and other encoded sources are decoded first. With fit = 0 the result is in the units of the decoded source, and
+/// s0 = 1 then returns the decoded source.
 inline constexpr FilterForms<HdrCompressOptions> hdr_compress { "hdr_compress", on_hierarchy::hdr_compress };
 
 /// Removes texture and keeps features, in one of two ways.

@@ -2,8 +2,8 @@
 // Options in one line of text, `key=value:key=value`, as they are given on the command line, in the query of a file's name
 // (`a.pimg?key=value&key=value`) and in C. The rules are:
 //
-// Separator  A colon; in the query of a file's name an ampersand. A colon before a digit belongs to the value, as in
-//            curve=0:1,1:3, because no key begins with a digit.
+// Separator  A colon; in the query of a file's name an ampersand. A colon before a digit, sign or point belongs to the value,
+//            as in curve=0:1,1:3, because no key begins with one of these.
 // Quotes     A value that begins with " or ' ends at the next such mark, and may hold anything: path="C:\a:b.svg". The
 //            mark itself is written twice: 'it''s'. Inside a value that does not begin with one, marks are ordinary.
 // Other      Spaces and backslashes have no special meaning. A value may be empty. A key, and an item between two

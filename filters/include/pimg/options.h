@@ -170,12 +170,24 @@ struct HdrCompressOptions {
     float denoise = 1.0f;  ///< details within this many times the noise are calmed, not amplified; 0: none is noise
     float coherence =
         0.75f;  ///< how far details are compressed like the coarser features around them; 0: Eq. (2) as printed
-    float saturation = 1.0f;  ///< colourfulness; 1 looks like the scene, 0 makes grey
-    bool fit = true;          ///< place middle grey and white on the display; false: stay in the picture's units
-    float contrast = 1.0f;    ///< factor on the compressed log luminance
-    float key = 0.0f;         ///< luminance of the compressed picture shown as middle grey (0.18); 0: found
-    float white = 0.0f;       ///< luminance of the compressed picture shown as white; 0: found
-    float exposure = 0.0f;    ///< added to the exposure, in stops
+    float saturation = 1.0f;         ///< colourfulness; 1 looks like the scene, 0 makes grey
+    bool fit = true;                 ///< place middle grey and white on the display; false: stay in the picture's units
+    float contrast = 1.0f;           ///< factor on the compressed log luminance
+    float key = 0.0f;                ///< luminance of the compressed picture shown as middle grey (0.18); 0: found
+    float white = 0.0f;              ///< luminance of the compressed picture shown as white; 0: found
+    float exposure = 0.0f;           ///< added to the exposure, in stops
+    std::string output = "display";  ///< display; scene: scene-linear; gain: log2 of the factor from source to scene
+    float peak = 203.0f;             ///< luminance in nits of the brightest that the display shows; white is at 203
+    bool aovs = false;               ///< output=scene: every layer that holds light gets the picture's gain
+    float fine = 0.0f;               ///< stops by which the gain of details is raised, if they are small,
+    float medium = 0.0f;             ///< of middle size,
+    float coarse = 0.0f;             ///< or large
+    float shadows = 0.0f;            ///< stops by which what is dark is raised, 3 stops below middle grey and further,
+    float midtones = 0.0f;           ///< what is middle grey,
+    float highlights = 0.0f;         ///< and what is 3 stops above it and further
+    /// The same at any exposure, instead of these three: pairs of stops above middle grey and of stops it is raised by,
+    /// such as "-6:+2,-3:+1,0:0,4:-1". Linear between these points and constant outside.
+    std::string zones;
 };
 
 /// Painterly rendering (section 5.2). Sizes are in pixels.

@@ -7,15 +7,15 @@ namespace pimg {
 
 namespace {
 
-bool is_digit(char c)
+bool begins_number(char c)
 {
-    return c >= '0' && c <= '9';
+    return (c >= '0' && c <= '9') || c == '+' || c == '-' || c == '.';
 }
 
 std::size_t end_of_value(std::string_view text, char separator)
 {
     std::size_t end = text.find(separator);
-    while (separator == ':' && end < text.size() - 1 && is_digit(text[end + 1]))
+    while (separator == ':' && end < text.size() - 1 && begins_number(text[end + 1]))
         end = text.find(separator, end + 1);
     return std::min(end, text.size());
 }

@@ -371,6 +371,21 @@ const std::vector<Option<HdrCompressOptions>>& option_table<HdrCompressOptions>(
         { &T::key, { "key", 0, kAnyFloat, "", "", "luminance after compression shown as middle grey; 0: found" } },
         { &T::white, { "white", 0, kAnyFloat, "", "", "luminance after compression shown as white; 0: found" } },
         { &T::exposure, { "exposure", -20, 20, "stops", "", "added to the exposure" } },
+        { &T::output,
+          { "output", 0, 0, "", "display|scene|gain",
+            "display: for a display; scene: scene-linear, 0.18 stays; gain: log2 of the factor to scene" } },
+        { &T::peak, { "peak", 100, 4000, "nits", "", "brightest that the display shows; white, 1, is 203 nits" } },
+        { &T::aovs, { "aovs", 0, 0, "", "", "with output=scene: every layer of light gets the picture's gain" } },
+        { &T::fine, { "fine", -8, 4, "stops", "", "raises the gain of small details, to 1/400 of the diagonal" } },
+        { &T::medium, { "medium", -8, 4, "stops", "", "raises the gain of details of middle size" } },
+        { &T::coarse, { "coarse", -8, 4, "stops", "", "raises the gain of large details, from 1/40 of the diagonal" } },
+        { &T::shadows,
+          { "shadows", -8, 8, "stops", "", "raises what is 3 stops or more below middle grey, without halos" } },
+        { &T::midtones, { "midtones", -8, 8, "stops", "", "raises what is near middle grey" } },
+        { &T::highlights, { "highlights", -8, 8, "stops", "", "raises what is 3 stops or more above middle grey" } },
+        { &T::zones,
+          { "zones", 0, 0, "", "",
+            "instead of these three: stops above middle grey:stops raised,... linear in between" } },
     };
     return table;
 }

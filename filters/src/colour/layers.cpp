@@ -60,6 +60,17 @@ bool is_data_word(const std::string& word)
         || Strutil::ends_with(word, "materialid") || Strutil::ends_with(word, "normals");
 }
 
+/// Words of layers that tell how much light surfaces or pixels let through, not light: to multiply both them and the light
+/// that they scale would count a factor twice.
+bool is_surface_word(const std::string& word)
+{
+    for (const char* part : { "albedo", "occlusion", "mask", "matte", "mist", "roughness", "reflectance", "variance",
+                              "samplecount", "weight", "coverage" })
+        if (Strutil::contains(word, part))
+            return true;
+    return word == "ao" || Strutil::ends_with(word, "_ao") || (Strutil::ends_with(word, "col") && word.size() > 3);
+}
+
 bool is_data_layer(const std::string& name)
 {
     const std::vector<std::string> words = Strutil::splits(Strutil::lower(name), ".");
@@ -191,6 +202,18 @@ bool holds_data(const OIIO::ImageSpec& spec, int channel)
 {
     const OIIO::TypeDesc type = spec.channelformat(channel);
     return type == OIIO::TypeDesc::UINT32 || type == OIIO::TypeDesc::INT32 || is_data_layer(spec.channel_name(channel));
+}
+
+bool holds_light(const OIIO::ImageSpec& spec, int channel)
+{
+    if (holds_data(spec, channel))
+        return false;
+    for (const Layer& layer : layers_of(spec))
+        if (std::count(layer.rgb.begin(), layer.rgb.end(), channel) > 0) {
+            const std::vector<std::string> words = Strutil::splits(Strutil::lower(layer.name), ".");
+            return layer.complete() && std::none_of(words.begin(), words.end(), is_surface_word);
+        }
+    return false;
 }
 
 bool holds_picture(const OIIO::ImageSpec& part, const std::string& layer)

@@ -27,4 +27,8 @@ bool find_picture(const OIIO::ImageSpec& spec, const std::string& layer, Picture
 /// holds data, not light.
 bool holds_data(const OIIO::ImageSpec& spec, int channel);
 
+/// Whether a channel is red, green or blue of a layer of light: one that has all three, holds no data, and is no property of
+/// surfaces either, such as albedo, the Col passes of Blender, occlusion or a mask.
+bool holds_light(const OIIO::ImageSpec& spec, int channel);
+
 }  // namespace pimg

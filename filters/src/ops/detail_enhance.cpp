@@ -5,13 +5,11 @@
 #include <pimg/imagebufalgo.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-
-#include <OpenImageIO/strutil.h>
 
 #include <pimg/detail/format.h>
 
+#include "base/curve_text.h"
 #include "frame/image_filter.h"
 #include "frame/positive_light.h"
 
@@ -27,38 +25,29 @@ Level place(const Hierarchy& hierarchy, double position)
     return Level(std::lround(std::min(splits, double(hierarchy.levels()))));
 }
 
-/// A point of a curve: from this split on, the gain changes linearly to that of the next point.
-struct CurvePoint {
+/// A point of a curve of gains: from this split on, the gain changes linearly to that of the next point.
+struct GainPoint {
     Level split;
     float gain;
 };
-using Curve = std::vector<CurvePoint>;
+using Curve = std::vector<GainPoint>;
 
-bool parse_numbers(std::string_view text, double& position, double& gain)
+bool parse_gains(const Hierarchy& hierarchy, const std::string& text, Curve& curve, std::string& error)
 {
-    const std::size_t colon = text.find(':');
-    if (colon == text.npos)
-        return false;
-    const auto number = [](std::string_view word, double& value) {
-        const auto [end, status] = std::from_chars(word.data(), word.data() + word.size(), value);
-        return status == std::errc() && end == word.data() + word.size();
-    };
-    return number(text.substr(0, colon), position) && number(text.substr(colon + 1), gain) && position >= 0.0
-        && position <= 1e9 && gain >= 0.0 && gain <= 100.0;
-}
-
-bool parse_curve(const Hierarchy& hierarchy, const std::string& text, Curve& curve, std::string& error)
-{
+    std::vector<CurvePoint> points;
+    bool fine = parse_curve(text, points);
     double before = 0.0;
-    for (const std::string& word : OIIO::Strutil::splits(text, ",")) {
-        double position = 0.0, gain = 0.0;
-        if (!parse_numbers(word, position, gain) || position < before) {
-            error = format(
-                "curve=\"{}\": expected position:gain,... with positions that do not fall and gains of 0 to 100", text);
-            return false;
-        }
-        curve.push_back({ place(hierarchy, before = position), float(gain) });
+    for (const CurvePoint& point : points) {
+        fine = fine && point.position >= before && point.position <= 1e9 && point.value >= 0.0 && point.value <= 100.0;
+        before = point.position;
     }
+    if (!fine) {
+        error = format("curve=\"{}\": expected position:gain,... with positions that do not fall and gains of 0 to 100",
+                       text);
+        return false;
+    }
+    for (const CurvePoint& point : points)
+        curve.push_back({ place(hierarchy, point.position), float(point.value) });
     return true;
 }
 
@@ -68,8 +57,8 @@ std::vector<float> gains_less_one(const Curve& curve, Level levels)
 {
     std::vector<float> more(levels + 1, curve.front().gain - 1.0f);
     for (std::size_t k = 0; k < curve.size(); ++k) {
-        const CurvePoint from = curve[k];
-        const CurvePoint to = k + 1 < curve.size() ? curve[k + 1] : CurvePoint { levels + 1, from.gain };
+        const GainPoint from = curve[k];
+        const GainPoint to = k + 1 < curve.size() ? curve[k + 1] : GainPoint { levels + 1, from.gain };
         const double slope =
             (double(to.gain) - double(from.gain)) / std::max(double(to.split) - double(from.split), 1.0);
         for (Level i = from.split; i < to.split; ++i)
@@ -170,7 +159,7 @@ bool by_position(ProgressiveImage::Data& data, const DetailEnhanceOptions& optio
     if (options.curve.empty())
         curve = step_curve(place(data.hierarchy, double(options.from)), place(data.hierarchy, double(options.to)),
                            options.gain, levels);
-    else if (!parse_curve(data.hierarchy, options.curve, curve, error))
+    else if (!parse_gains(data.hierarchy, options.curve, curve, error))
         return false;
     const ChannelBands* channels = data.channel_bands(parallel, error);
     const auto planned = channels != nullptr ? data.planned_channels(parallel, error) : nullptr;

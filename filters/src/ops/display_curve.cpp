@@ -29,13 +29,13 @@ HWY_INLINE Vector set(float value)
 
 HWY_INLINE Vector tone(const ToneCurve& curve, Vector y)
 {
-    constexpr float kRest = 1.0f - ToneCurve::kKnee;
+    const float rest = curve.most - ToneCurve::kKnee;
     const Vector knee = set(ToneCurve::kKnee), one = set(1.0f);
     y = hn::Min(y, set(1e18f));  // the square must be finite
     y = y * (y / (y + set(curve.toe + 1e-30f)));
-    const Vector t = (y - knee) * set(1.0f / kRest);
-    const Vector curved = knee + set(kRest) * (t * (one + t * set(curve.inverse_square)) / (one + t));
-    return hn::IfThenElse(y <= knee, y, hn::IfThenElse(y < set(curve.white), curved, one));
+    const Vector t = (y - knee) * set(1.0f / rest);
+    const Vector curved = knee + set(rest) * (t * (one + t * set(curve.inverse_square)) / (one + t));
+    return hn::IfThenElse(y <= knee, y, hn::IfThenElse(y < set(curve.white), curved, set(curve.most)));
 }
 
 HWY_INLINE Vector weighted(const float* weights, Vector x, Vector y, Vector z)
@@ -193,7 +193,13 @@ HWY_INLINE void fit(const Recolour& how, Vector from, Vector y, Pixels& p)
         const Vector scaled = *channel * ratio;
         *channel = any_huge ? hn::IfThenElse(is_huge, *channel / from * y, scaled) : scaled;
     }
-    into_gamut(how, y, p);
+    if (how.curve.most == 1.0f) {
+        into_gamut(how, y, p);
+        return;
+    }
+    scale(set(1.0f / how.curve.most), p);
+    into_gamut(how, y * set(1.0f / how.curve.most), p);
+    scale(set(how.curve.most), p);
 }
 
 HWY_INLINE void recolour_vector(const Recolour& how, Vector compressed, Vector guide, Pixels& p)
@@ -249,11 +255,12 @@ namespace pimg {
 HWY_EXPORT(recolour);
 HWY_EXPORT(lightness_in_place);
 
-ToneCurve::ToneCurve(float toe_luminance, float reaches_one_at)
+ToneCurve::ToneCurve(float toe_luminance, float reaches_most_at, float most_luminance)
     : toe(toe_luminance),
-      white(std::max(reaches_one_at, 1.000001f))
+      white(std::max(reaches_most_at, 1.000001f * most_luminance)),
+      most(most_luminance)
 {
-    const float t = (white - kKnee) / (1.0f - kKnee);
+    const float t = (white - kKnee) / (most - kKnee);
     inverse_square = 1.0f / (t * t);
 }
 

@@ -12,12 +12,13 @@ constexpr float kMiddleGrey = 0.18f;
 
 /// The tone curve of a display, on luminances. The toe takes the haze from shadows; it is y^2 / (y + toe), a
 /// subtraction of `toe` that never reaches 0. The shoulder rolls highlights off: the identity up to a knee, then a
-/// smooth rise that reaches 1 at `white`.
+/// smooth rise that reaches `most` at `white`.
 struct ToneCurve {
     static constexpr float kKnee = 0.3f;
-    float toe, white, inverse_square;
+    float toe, white, most, inverse_square;
 
-    ToneCurve(float toe_luminance, float reaches_one_at);  ///< 0 or more; 1 or more
+    /// 0 or more; `most` or more; above kKnee: 1, the white of a picture, is all that an SDR display shows.
+    ToneCurve(float toe_luminance, float reaches_most_at, float most_luminance);
 };
 
 /// How pixels are given another luminance while they keep their colour.

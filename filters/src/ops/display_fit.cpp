@@ -54,7 +54,10 @@ ToneCurve tone_curve(const HdrCompressOptions& options)
     const float white = kMiddleGrey * std::exp2(white_stops), head = kRoomAboveWhite * white;
     const float darkest = white * std::exp2(-options.contrast * options.s0 * range_of(options));
     const float toe = std::clamp(darkest * darkest / kBlack - darkest, 0.0f, kMostToe);
-    return ToneCurve(toe, head * head / (head + toe));
+    const float reaches_most = head * head / (head + toe);
+    // What is no brighter than the display needs no shoulder, and is not made brighter either.
+    const float most = std::min(options.peak / kWhiteNits, std::max(reaches_most, 1.0f));
+    return ToneCurve(toe, reaches_most, most);
 }
 
 float find_scene_key(const Overview& overview)
@@ -108,6 +111,7 @@ void find_exposure(CompressedCells cells, float scene_key, float dark, HdrCompre
     HdrCompressOptions trial = options;
     std::vector<float> scratch(cells.size());
     trial.exposure = 0.0f;
+    trial.peak = kWhiteNits;  // the same picture for every display
     const auto [least, most] = std::minmax_element(
         cells.begin(), cells.end(), [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
     float low = least->value - 16.0f, high = most->value + 16.0f;

@@ -11,6 +11,9 @@
 
 namespace pimg {
 
+/// Luminance of the white of a picture on a display, in nits: reference white of ITU-R BT.2408.
+constexpr float kWhiteNits = 203.0f;
+
 /// What s0, dmax and detail are where they are 0: dmax a share of the picture's dynamic range, `range` stops, and the
 /// others all from dmax, so that pictures compressed with one dmax are treated alike.
 void find_compression(float range, HdrCompressOptions& options);
@@ -30,7 +33,8 @@ void find_exposure(CompressedCells cells, float scene_key, float dark, HdrCompre
 float find_scene_key(const Overview& overview);
 
 /// The tone curve of resolved options. Its toe brings the darkest part of the base, which the compressed range tells,
-/// down to black, as far as that leaves the contrast of the others natural; its shoulder brings `white` to 1.
+/// down to black, as far as that leaves the contrast of the others natural; its shoulder brings `white` to the brightest
+/// that the display shows.
 ToneCurve tone_curve(const HdrCompressOptions& options);
 
 }  // namespace pimg

@@ -6,10 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "frame/image_filter.h"
 #include "ops/display_fit.h"
-#include "source/contrast_envelope.h"
+#include "ops/scene_light.h"
+#include "ops/zone_curve.h"
+#include "source/gains/contrast_envelope.h"
 #include "source/overview.h"
 
 namespace pimg {
@@ -40,17 +43,15 @@ DetailGain gain_of(const HdrCompressOptions& options)
 EnvelopeOptions envelope_of(const HdrCompressOptions& options, const NoiseModel& noise)
 {
     return { options.coherence, range_of(options) * kUnitsPerStop,
-             options.fit ? noise.times(options.denoise) : NoiseModel() };
+             options.fit ? noise.times(options.denoise) : NoiseModel(), 0.0f };
 }
 
 /// Fills in what is 0 and not found from dmax alone.
 void find_exposure(const Overview& overview, float reference, HdrCompressOptions& options)
 {
     std::vector<float> values(overview.bands->plan.places()), cells(overview.hierarchy.mesh_pixels());
-    Envelope envelope;
-    if (options.coherence > 0.0f)
-        envelope = contrast_envelope(*overview.bands, envelope_of(options, {}), {});
-    compress(*overview.bands, gain_of(options), envelope.contrast.empty() ? nullptr : &envelope, {}, values.data());
+    const Envelope envelope = contrast_envelope(*overview.bands, envelope_of(options, {}), {});
+    compress(*overview.bands, gain_of(options), {}, envelope, {}, values.data());
     overview.bands->plan.scatter(overview.hierarchy, values.data(), cells.data());
     crop_to_picture(overview.hierarchy, cells);
     const float dark = compressed_reference(options, reference);
@@ -61,11 +62,16 @@ void find_exposure(const Overview& overview, float reference, HdrCompressOptions
     find_exposure(std::move(stops), find_scene_key(overview), dark, options);
 }
 
+bool raises_zones(const HdrCompressOptions& options)
+{
+    return !options.zones.empty() || options.shadows != 0.0f || options.midtones != 0.0f || options.highlights != 0.0f;
+}
+
 /// Fills in all options that are 0. Calls get_overview() only if they need it.
 template<class GetOverview>
 bool resolve(HdrCompressOptions& options, float reference, GetOverview&& get_overview)
 {
-    const bool exposed = !options.fit || (options.key > 0.0f && options.white > 0.0f);
+    const bool exposed = !(options.fit || raises_zones(options)) || (options.key > 0.0f && options.white > 0.0f);
     const Overview* overview = exposed && options.dmax > 0.0f ? nullptr : get_overview();
     if (overview == nullptr && !(exposed && options.dmax > 0.0f))
         return false;
@@ -78,31 +84,71 @@ bool resolve(HdrCompressOptions& options, float reference, GetOverview&& get_ove
 /// The compressed log luminance of every pixel and the options it was made with.
 struct Compressed {
     HdrCompressOptions options;  ///< resolved
+    ZoneCurve zones;
     const LogLuminance* luminance = nullptr;
     Scratch samples;
     NoiseModel noise;
 };
 
+/// Stops of the result to one guide unit of the compressed luminance.
+float slope_of(const HdrCompressOptions& options)
+{
+    return (options.fit ? options.contrast : 1.0f) / kUnitsPerStop;
+}
+
+/// log2 of the factor between the source and the result before the tone curve is
+///     slope_of() * compressed - guide / kUnitsPerStop + offset_of().
+/// For displays, the luminance `key` after compression becomes middle grey; light of a scene keeps its middle grey.
+float offset_of(const Compressed& c)
+{
+    const HdrCompressOptions& options = c.options;
+    const float reference = std::log2(c.luminance->reference), grey = std::log2(kMiddleGrey);
+    const float compressed = compressed_reference(options, c.luminance->reference);
+    if (!options.fit)
+        return compressed - reference;
+    const float becomes_grey = options.output == "display" ? std::log2(options.key) : options.s0 * grey;
+    return options.contrast * (compressed - becomes_grey) + grey + options.exposure - reference;
+}
+
+/// Raises the zones of the compressed picture. `scene` is its log luminance without texture, in guide units, so that texture
+/// keeps its contrast where one zone passes into another.
+void raise_zones(const std::vector<float>& scene, const ParallelFor& parallel, Compressed& c)
+{
+    const float reference = std::log2(c.luminance->reference);
+    const float grey = std::log2(c.options.key) / c.options.s0;  // what becomes middle grey, before compression
+    const float inverse = 1.0f / slope_of(c.options);
+    const Raster& guide = c.luminance->guide;
+    for_rows(parallel, 0, guide.height, [&](int y) {
+        const std::size_t first = std::size_t(y) * std::size_t(guide.width);
+        for (std::size_t i = first; i < first + std::size_t(guide.width); ++i)
+            (*c.samples)[i] += inverse * c.zones.at(scene[i] / kUnitsPerStop + reference - grey);
+    });
+}
+
 bool compress_luminance(ProgressiveImage::Data& data, const ParallelFor& parallel, Compressed& c, std::string& error)
 {
-    const LogBands* log = data.log_bands(parallel, error);
+    HdrCompressOptions& options = c.options;
+    const LogBands* log = ZoneCurve::make(options, c.zones, error) ? data.log_bands(parallel, error) : nullptr;
     if (log == nullptr)
         return false;
-    HdrCompressOptions& options = c.options;
     c.luminance = &log->luminance;
+    c.noise = data.noise(parallel).times(options.denoise);
     if (!resolve(options, log->luminance.reference, [&] { return data.overview(parallel, error); }))
         return false;
     const DetailGain gain = gain_of(options);
+    EnvelopeOptions how = envelope_of(options, data.noise(parallel));
+    const SizeGains sizes { options.fine, options.medium, options.coarse };
+    if (!sizes.none())
+        how.diagonal = std::hypot(float(data.spec.width), float(data.spec.height));
     const std::shared_ptr<const PlannedBands> planned = data.planned_log_bands(parallel);
     Scratch values(data, planned->plan.places());
-    std::shared_ptr<const Envelope> envelope;
-    if (options.coherence > 0.0f)
-        envelope = data.envelope(planned, envelope_of(options, data.noise(parallel)), parallel);
-    c.noise = data.noise(parallel).times(options.denoise);
-    compress(*planned, gain, envelope.get(), parallel, (*values).data());
+    const std::shared_ptr<const Envelope> envelope = data.envelope(planned, how, parallel);
+    compress(*planned, gain, sizes, *envelope, parallel, (*values).data());
     planned->plan.scatter(data.hierarchy, (*values).data(), (*c.samples).data(), parallel);
     crop_to_picture(data.hierarchy, *c.samples);
     compress_residual(data.hierarchy, *log->bands, gain, options.coherence, log->luminance.guide.samples, *c.samples);
+    if (!c.zones.flat())
+        raise_zones(data.luminance_without_texture(parallel), parallel, c);
     return true;
 }
 
@@ -138,23 +184,15 @@ private:
     static Recolour how(const Colour& colour, const Compressed& compressed)
     {
         const HdrCompressOptions& options = compressed.options;
-        const float reference = std::log2(compressed.luminance->reference);
-        const float compressed_ref = compressed_reference(options, compressed.luminance->reference);
         const bool converts = options.fit && !colour.has_rec709_primaries();
-        Recolour r { converts ? Colour().weights() : colour.weights(),
-                     1.0f / kUnitsPerStop,
-                     compressed_ref - reference,
-                     options.saturation * (options.fit ? kSaturation : 1.0f),
-                     options.fit,
-                     options.fit ? tone_curve(options) : ToneCurve(0.0f, 1.0f),
-                     compressed.noise.read,
-                     compressed.noise.photon };
-        if (options.fit) {
-            r.slope = options.contrast / kUnitsPerStop;
-            r.offset = options.contrast * (compressed_ref - std::log2(options.key)) + std::log2(kMiddleGrey)
-                + options.exposure - reference;
-        }
-        return r;
+        return { converts ? Colour().weights() : colour.weights(),
+                 slope_of(options),
+                 offset_of(compressed),
+                 options.saturation * (options.fit ? kSaturation : 1.0f),
+                 options.fit,
+                 options.fit ? tone_curve(options) : ToneCurve(0.0f, 1.0f, 1.0f),
+                 compressed.noise.read,
+                 compressed.noise.photon };
     }
 
     const float* compressed(Index pixel) const { return &(*m_compressed.samples)[pixel]; }
@@ -264,18 +302,34 @@ bool on_hierarchy::hdr_compress(ImageBuf& dst, const ProgressiveImage& src, cons
                                 int nthreads)
 {
     return run_filter(dst, options, [&] {
-        if (!prepare(dst, src, roi, ResultType::full_float))
+        if (options.aovs && options.output != "scene") {
+            set_error(dst, "aovs: expected output=scene; what a display shows does not add up");
+            return false;
+        }
+        const bool is_gain = options.output == "gain";
+        if (!(is_gain ? prepare_single(dst, src, roi, "gain", OIIO::TypeDesc::FLOAT)
+                      : prepare(dst, src, roi, ResultType::full_float)))
             return false;
         ProgressiveImage::Data& data = *src.data();
         const ParallelFor parallel = pool_loop(nthreads);
-        Compressed compressed { options, nullptr, { data, data.hierarchy.mesh_pixels() }, {} };
+        Compressed compressed { options, {}, nullptr, { data, data.hierarchy.mesh_pixels() }, {} };
         std::string error;
         if (!compress_luminance(data, parallel, compressed, error)) {
             set_error(dst, error);
             return false;
         }
-        const Renderer renderer(data, compressed);
-        write_rows(dst, data, roi, parallel, [&](const RowSpan& span, float* row) { renderer.render(span, row); });
+        const LightGain gain { slope_of(compressed.options), offset_of(compressed), (*compressed.samples).data(),
+                               compressed.luminance->guide.samples.data() };
+        if (is_gain) {
+            write_gain(dst, data, roi, parallel, gain);
+            return true;
+        }
+        if (options.output == "scene") {
+            write_scene_light(dst, data, roi, parallel, gain, options.aovs);
+        } else {
+            const Renderer renderer(data, compressed);
+            write_rows(dst, data, roi, parallel, [&](const RowSpan& span, float* row) { renderer.render(span, row); });
+        }
         data.colour.declare_linear(dst.specmod());
         return true;
     });

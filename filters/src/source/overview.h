@@ -9,7 +9,7 @@
 #include <pimg/hierarchy.h>
 #include <pimg/types.h>
 
-#include "source/contrast_envelope.h"
+#include "source/gains/contrast_envelope.h"
 #include "source/guide.h"
 #include "source/wrap/wrap.h"
 

@@ -15,7 +15,7 @@
 #include <pimg/threads.h>
 
 #include "base/float_copy.h"
-#include "source/contrast_envelope.h"
+#include "source/gains/contrast_envelope.h"
 #include "source/lab.h"
 #include "source/progressive_image_data.h"
 #include "source/wrap/latitude.h"
@@ -334,6 +334,14 @@ const ChannelBands* ProgressiveImage::Data::channel_bands(const ParallelFor& par
     return m_channels.get();
 }
 
+const std::vector<float>& ProgressiveImage::Data::luminance_without_texture(const ParallelFor& parallel)
+{
+    const std::unique_lock<std::mutex> lock = lock_or_stop(m_mutex);
+    if (m_without_texture.empty())
+        m_without_texture = without_texture(hierarchy, m_log->luminance, parallel);
+    return m_without_texture;
+}
+
 const Overview* ProgressiveImage::Data::overview(const ParallelFor& parallel, std::string& error)
 {
     const LogBands* log = log_bands(parallel, error);
@@ -407,7 +415,9 @@ std::size_t ProgressiveImage::Data::memory()
     for (const std::vector<float>& scratch : m_scratch)
         total += scratch.capacity() * sizeof(float);
     if (m_envelope != nullptr)
-        total += (m_envelope->contrast.capacity() + m_envelope->visibility.capacity()) * sizeof(float);
+        total += (m_envelope->contrast.capacity() + m_envelope->visibility.capacity()) * sizeof(float)
+            + m_envelope->size.capacity() * sizeof(FeatureSize);
+    total += m_without_texture.capacity() * sizeof(float);
     return total;
 }
 

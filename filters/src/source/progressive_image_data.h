@@ -12,7 +12,7 @@
 #include <pimg/regions.h>
 #include <pimg/sampling.h>
 
-#include "source/contrast_envelope.h"
+#include "source/gains/contrast_envelope.h"
 #include "source/guide.h"
 #include "source/overview.h"
 #include "source/smoothing_data.h"
@@ -73,6 +73,9 @@ struct ProgressiveImage::Data {
     /// Likewise what smoothing by strength needs of the channels, or, if `log`, of their logarithms.
     std::shared_ptr<const SmoothingData> smoothing(bool log, const ParallelFor& parallel);
 
+    /// See without_texture(); after log_bands(). Kept.
+    const std::vector<float>& luminance_without_texture(const ParallelFor& parallel);
+
     /// What compression and exposure are found from. Kept; null, with an error, like the bands.
     const Overview* overview(const ParallelFor& parallel, std::string& error);
 
@@ -120,6 +123,7 @@ private:
     Bands m_log_bands;  ///< if they are not the guide's
     std::shared_ptr<const PlannedBands> m_planned_log;
     int m_log_sweeps = 0;
+    std::vector<float> m_without_texture;
     std::unique_ptr<Overview> m_overview;
     std::shared_ptr<const PlannedBands> m_envelope_bands;
     EnvelopeOptions m_envelope_options;

@@ -17,6 +17,10 @@ namespace {
 constexpr float kDefaultStrength = 0.03f;
 constexpr float kDefaultStops = 0.3f;
 
+/// Contrast that is texture where zones of exposure are told apart. Chosen by eye: more, and the zones of what is small
+/// are those around it; less, and the leaves of a shaded tree are of several zones.
+constexpr float kTexture = 2.0f * kUnitsPerStop;
+
 /// Unit of the logarithm over the median magnitude: 10 stops below it. Chosen by eye; less keeps the contrast of what is
 /// nearly black, and its noise.
 constexpr float kUnitBelowMiddle = 0x1p-10f;
@@ -96,6 +100,20 @@ SmoothingData prepare_smoothing(const ProgressiveImage::Data& data, bool log)
         channel = to_mesh_pixels(data.hierarchy, channel.data());
     result.source = analyse_for_smoothing(data.hierarchy, std::move(samples));
     return result;
+}
+
+std::vector<float> without_texture(const Hierarchy& hierarchy, const LogLuminance& luminance,
+                                   const ParallelFor& parallel)
+{
+    const SmoothingSource source =
+        analyse_for_smoothing(hierarchy, { to_mesh_pixels(hierarchy, luminance.guide.samples.data()) });
+    SmoothingOptions options;
+    options.strength = kTexture;
+    options.parallel = parallel;
+    Channels result;
+    smooth(hierarchy, source, options, result);
+    crop_to_picture(hierarchy, result[0]);
+    return std::move(result[0]);
 }
 
 float find_strength(const StrengthOptions& options, const SmoothingData& smoothing)

@@ -11,6 +11,8 @@
 #include <pimg/progressive_image.h>
 #include <pimg/smoothing.h>
 
+#include "source/guide.h"
+
 namespace pimg {
 
 /// A logarithm for samples of either sign: in octaves, log2(x / unit) far above the unit and linear below it. 2^-10 of
@@ -40,6 +42,11 @@ struct SmoothingData {
 Channels source_channels(const ProgressiveImage::Data& data);
 
 SmoothingData prepare_smoothing(const ProgressiveImage::Data& data, bool log);
+
+/// The log luminance of a picture without texture, up to about a stop of it, in guide units: a raster of the picture's
+/// size. Edges of what is larger stay where they are.
+std::vector<float> without_texture(const Hierarchy& hierarchy, const LogLuminance& luminance,
+                                   const ParallelFor& parallel);
 
 /// The strength the options ask for, in units of `smoothing`; the default if they do not say.
 float find_strength(const StrengthOptions& options, const SmoothingData& smoothing);

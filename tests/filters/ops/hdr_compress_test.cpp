@@ -39,6 +39,29 @@ TEST(HdrCompress, IsDisplayLinear)
     EXPECT_LT(sorted[sorted.size() / 2], 80.0f);
 }
 
+/// An HDR display shows the same picture up to white, and highlights beyond it.
+TEST(HdrCompress, PeakOfTheDisplay)
+{
+    const ImageBuf src = hdr_scene();
+    const std::vector<float> sdr = pixels(compressed(src));
+    float before = *std::max_element(sdr.begin(), sdr.end());
+    EXPECT_LE(before, 1.0f);
+    for (const float nits : { 400.0f, 1000.0f, 4000.0f }) {
+        HdrCompressOptions options;
+        options.peak = nits;
+        const std::vector<float> hdr = pixels(compressed(src, options));
+        const float most = *std::max_element(hdr.begin(), hdr.end());
+        EXPECT_GT(most, before);
+        EXPECT_LE(most, nits / 203.0f * 1.00001f);
+        for (std::size_t i = 0; i < sdr.size(); i += 3) {
+            const float luminance = 0.2126f * sdr[i] + 0.7152f * sdr[i + 1] + 0.0722f * sdr[i + 2];
+            for (std::size_t c = 0; luminance < 0.2f && c < 3; ++c)
+                ASSERT_NEAR(hdr[i + c], sdr[i + c], 0.02f) << nits;
+        }
+        before = most;
+    }
+}
+
 TEST(HdrCompress, ScaleOfTheInputDoesNotMatter)
 {
     const std::vector<float> expected = lightness(compressed(hdr_scene()));

@@ -14,7 +14,7 @@
 #include "core/pictures.h"
 #include "core/simd_targets.h"
 #include "ops/display_curve.h"
-#include "source/detail_gain.h"
+#include "source/gains/detail_gain.h"
 #include "source/guide.h"
 
 namespace pimg {
@@ -108,7 +108,7 @@ TEST(FilterVectors, CompressedDetails)
         const auto make = [&](std::size_t first, std::size_t count) {
             std::vector<float> y(2 * count);
             std::vector<Detail> compressed(count);
-            gain.apply(&details[first], by ? by + first : nullptr, nullptr, count, compressed.data());
+            gain.apply(&details[first], { by ? by + first : nullptr, nullptr, nullptr }, count, compressed.data());
             std::memcpy(y.data(), compressed.data(), y.size() * sizeof(float));
             return y;
         };
@@ -150,7 +150,9 @@ struct Recolouring : testing::Test {
 TEST_F(Recolouring, FitsTheDisplay)
 {
     for (const float saturation : { 1.0f, 0.7f }) {
-        const Recolour how { colour.weights(), 0.1f, -2.0f, saturation, true, ToneCurve(0.05f, 4.0f), 0.01f, 0.02f };
+        const Recolour how {
+            colour.weights(), 0.1f, -2.0f, saturation, true, ToneCurve(0.05f, 4.0f, 1.0f), 0.01f, 0.02f
+        };
         expect_same_bits([&](std::size_t first, std::size_t count) { return make(how, first, count); });
         for (const float v : make(how, 0, kCount)) {
             EXPECT_GE(v, 0.0f);
@@ -161,7 +163,7 @@ TEST_F(Recolouring, FitsTheDisplay)
 
 TEST_F(Recolouring, OnlyScalesIfNotFitted)
 {
-    const Recolour how { colour.weights(), 0.1f, -2.0f, 1.0f, false, ToneCurve(0.0f, 1.0f), 0.0f, 0.0f };
+    const Recolour how { colour.weights(), 0.1f, -2.0f, 1.0f, false, ToneCurve(0.0f, 1.0f, 1.0f), 0.0f, 0.0f };
     expect_same_bits([&](std::size_t first, std::size_t count) { return make(how, first, count); });
     const std::vector<float> y = make(how, 0, kCount);
     for (std::size_t i = 0; i < kCount; ++i) {
@@ -175,7 +177,7 @@ TEST_F(Recolouring, OnlyScalesIfNotFitted)
 
 TEST_F(Recolouring, HasTheLuminanceOfTheCurve)
 {
-    const ToneCurve curve(0.05f, 4.0f);
+    const ToneCurve curve(0.05f, 4.0f, 1.0f);
     const Recolour how { colour.weights(), 0.1f, -2.0f, 1.0f, true, curve, 0.0f, 0.0f };
     const std::vector<float> y = make(how, 0, kCount);
     for (std::size_t i = 0; i < kCount; ++i) {
@@ -190,7 +192,7 @@ TEST_F(Recolouring, HasTheLuminanceOfTheCurve)
 TEST(FilterVectors, LightnessRisesToOne)
 {
     const std::vector<float> stops = numbers(-20.0f, 5.0f, 9);
-    const ToneCurve curve(0.0f, 4.0f);
+    const ToneCurve curve(0.0f, 4.0f, 1.0f);
     const std::vector<float> y = checked(stops, [&](float* v, std::size_t n) { lightness_in_place(curve, v, n); });
     for (std::size_t i = 0; i < kCount; ++i) {
         const float luminance = std::exp2(stops[i]);
@@ -208,7 +210,7 @@ TEST(FilterVectors, LightnessRisesToOne)
 TEST(FilterVectors, ToeSubtractsHaze)
 {
     std::vector<float> y = { std::log2(0.2f), std::log2(0.02f), -30.0f };
-    lightness_in_place(ToneCurve(0.05f, 4.0f), y.data(), y.size());
+    lightness_in_place(ToneCurve(0.05f, 4.0f, 1.0f), y.data(), y.size());
     EXPECT_NEAR(y[0] * y[0] * y[0], 0.2f * 0.2f / 0.25f, 1e-5f);
     EXPECT_NEAR(y[1] * y[1] * y[1], 0.02f * 0.02f / 0.07f, 1e-5f);
     EXPECT_NEAR(y[2], 0.0f, 1e-5f);
@@ -221,7 +223,7 @@ TEST(FilterVectors, NoiseIsNotAmplified)
     const std::vector<Detail> details(3, { 1.0f, -2.0f });
     const float contrasts[] = { 0.0f, 0.0f, 20.0f }, visibilities[] = { 0.0f, 1.0f, 1.0f };
     std::vector<Detail> compressed(3);
-    gain.apply(details.data(), contrasts, visibilities, 3, compressed.data());
+    gain.apply(details.data(), { contrasts, visibilities, nullptr }, 3, compressed.data());
     EXPECT_NEAR(compressed[0].t, 0.5f, 1e-6f);
     EXPECT_NEAR(compressed[1].u, -8.0f, 1e-6f);
     EXPECT_NEAR(compressed[2].t, 0.2f, 1e-6f);

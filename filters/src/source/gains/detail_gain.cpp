@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "source/detail_gain.h"
+#include "source/gains/detail_gain.h"
 
 #include <cmath>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "source/detail_gain.cpp"
+#define HWY_TARGET_INCLUDE "source/gains/detail_gain.cpp"
 #include <hwy/foreach_target.h>
 
 #include "colour/vector_math-inl.h"
@@ -35,13 +35,13 @@ public:
 
     HWY_INLINE Vector operator()(Vector contrast) const { return between(contrast, set(m_gain.detail)); }
 
-    HWY_INLINE Vector operator()(Vector contrast, Vector visibility) const
+    /// The gain of the smallest details of the splits from number `i` on.
+    HWY_INLINE Vector of_smallest(const SplitTraits& traits, std::size_t i, std::size_t n) const
     {
-        return between(contrast, set(m_gain.quiet) + visibility * set(m_gain.detail - m_gain.quiet));
+        return traits.visibility == nullptr
+            ? set(m_gain.detail)
+            : set(m_gain.quiet) + load(traits.visibility + i, n) * set(m_gain.detail - m_gain.quiet);
     }
-
-private:
-    static HWY_INLINE Vector set(float value) { return hn::Set(Lanes(), value); }
 
     HWY_INLINE Vector between(Vector contrast, Vector of_smallest) const
     {
@@ -49,6 +49,9 @@ private:
         const Vector raised = m_is_whole ? whole_power(rest, unsigned(m_gain.beta)) : power(rest, m_gain.beta);
         return set(m_gain.s0) + (of_smallest - set(m_gain.s0)) * raised;
     }
+
+private:
+    static HWY_INLINE Vector set(float value) { return hn::Set(Lanes(), value); }
 
     DetailGain m_gain;
     bool m_is_whole;
@@ -60,29 +63,28 @@ void gains_of(const DetailGain& parameters, float* contrasts, std::size_t count)
     for_vectors(count, [&](std::size_t i, std::size_t n) { store(gain(load(contrasts + i, n)), n, contrasts + i); });
 }
 
-/// Multiplies both numbers of a detail by the gain of its contrast: one vector of gains is for two vectors of details.
-void compress_by_contrast(const DetailGain& parameters, const float* details, const float* contrasts,
-                          const float* visibilities, std::size_t count, float* compressed)
+/// Multiplies both numbers of a detail by the gain of their split: one vector of splits is two of details.
+void compress_details(const DetailGain& parameters, const float* details, const SplitTraits& traits, std::size_t count,
+                      float* compressed)
 {
     const Lanes d;
     const Gain gain(parameters);
     for_vectors(count, [&](std::size_t i, std::size_t n) {
-        const Vector contrast = load(contrasts + i, n);
-        const Vector g = visibilities != nullptr ? gain(contrast, load(visibilities + i, n)) : gain(contrast);
-        HWY_ALIGN float twice[2 * 8];
-        hn::StoreInterleaved2(g, g, d, twice);
+        // The gains of the splits or, if those are not known yet, of their smallest details.
+        Vector g = gain.of_smallest(traits, i, n);
+        if (traits.contrast != nullptr)
+            g = gain.between(load(traits.contrast + i, n), g);
+        const Vector factor = traits.factor != nullptr ? load(traits.factor + i, n) : hn::Set(d, 1.0f);
+        HWY_ALIGN float gains[2 * 8], factors[2 * 8];
+        hn::StoreInterleaved2(g, g, d, gains);
+        hn::StoreInterleaved2(factor, factor, d, factors);
         for_vectors(2 * n, [&](std::size_t k, std::size_t lanes) {
-            store(load(details + 2 * i + k, lanes) * hn::Load(d, twice + k), lanes, compressed + 2 * i + k);
+            const Vector detail = load(details + 2 * i + k, lanes);
+            Vector its_gain = hn::Load(d, gains + k);
+            if (traits.contrast == nullptr)
+                its_gain = gain.between(hn::Abs(detail), its_gain);
+            store(detail * (its_gain * hn::Load(d, factors + k)), lanes, compressed + 2 * i + k);
         });
-    });
-}
-
-void compress_by_size(const DetailGain& parameters, const float* details, std::size_t count, float* compressed)
-{
-    const Gain gain(parameters);
-    for_vectors(2 * count, [&](std::size_t i, std::size_t n) {
-        const Vector detail = load(details + i, n);
-        store(gain(hn::Abs(detail)) * detail, n, compressed + i);
     });
 }
 
@@ -94,8 +96,7 @@ HWY_AFTER_NAMESPACE();
 namespace pimg {
 
 HWY_EXPORT(gains_of);
-HWY_EXPORT(compress_by_contrast);
-HWY_EXPORT(compress_by_size);
+HWY_EXPORT(compress_details);
 
 static_assert(sizeof(Detail) == 2 * sizeof(float), "details are taken for numbers, two each");
 
@@ -104,15 +105,9 @@ void DetailGain::apply(float* contrasts, std::size_t count) const
     HWY_DYNAMIC_DISPATCH(gains_of)(*this, contrasts, count);
 }
 
-void DetailGain::apply(const Detail* details, const float* contrasts, const float* visibilities, std::size_t count,
-                       Detail* compressed) const
+void DetailGain::apply(const Detail* details, const SplitTraits& traits, std::size_t count, Detail* compressed) const
 {
-    const float* from = &details->t;
-    float* to = &compressed->t;
-    if (contrasts != nullptr)
-        HWY_DYNAMIC_DISPATCH(compress_by_contrast)(*this, from, contrasts, visibilities, count, to);
-    else
-        HWY_DYNAMIC_DISPATCH(compress_by_size)(*this, from, count, to);
+    HWY_DYNAMIC_DISPATCH(compress_details)(*this, &details->t, traits, count, &compressed->t);
 }
 
 }  // namespace pimg

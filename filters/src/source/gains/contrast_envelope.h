@@ -8,7 +8,8 @@
 #include <pimg/bands.h>
 #include <pimg/detail/sweep_plan.h>
 
-#include "source/detail_gain.h"
+#include "source/gains/detail_gain.h"
+#include "source/gains/feature_size.h"
 #include "source/samples/noise.h"
 
 namespace pimg {
@@ -25,19 +26,22 @@ struct PlannedBands {
 
 /// What decides the gain of every split, in the order of the plan.
 struct Envelope {
-    std::vector<float> contrast;    ///< the contrast that the details of the split belong to
+    std::vector<float> contrast;    ///< the contrast that the details of the split belong to; empty: their own
     std::vector<float> visibility;  ///< 0: no more than noise, 1: clearly more; empty: all are 1
+    std::vector<FeatureSize> size;  ///< of the features that the split adds; empty if it was not asked for
 };
 
 /// How an Envelope is made.
 struct EnvelopeOptions {
-    float coherence = 0.75f;  ///< share of the contrast that is inherited
+    float coherence = 0.75f;  ///< share of the contrast that is inherited; 0: details have their own only
     float range = 0.0f;       ///< contrast that the base mesh has: the dynamic range of the picture, in guide units
     NoiseModel noise;         ///< of the samples
+    float diagonal = 0.0f;    ///< of the picture, in pixels, by which sizes are measured; 0: sizes are not asked for
 
     bool operator==(const EnvelopeOptions& other) const
     {
-        return coherence == other.coherence && range == other.range && noise == other.noise;
+        return coherence == other.coherence && range == other.range && noise == other.noise
+            && diagonal == other.diagonal;
     }
 };
 
@@ -57,9 +61,10 @@ struct EnvelopeOptions {
 Envelope contrast_envelope(const PlannedBands& bands, const EnvelopeOptions& options, const ParallelFor& parallel);
 
 /// The compressed bands at the finest level, in the places of the plan: the base scaled by gain.s0, both details of a
-/// split by the gain of its contrast and visibility, or each by that of its own size if there is no envelope.
-void compress(const PlannedBands& bands, const DetailGain& gain, const Envelope* envelope, const ParallelFor& parallel,
-              float* values);
+/// split by the gain of its contrast, visibility and size, or each by that of its own magnitude if the envelope has no
+/// contrasts. `sizes` raises all gains of an envelope with sizes.
+void compress(const PlannedBands& bands, const DetailGain& gain, const SizeGains& sizes, const Envelope& envelope,
+              const ParallelFor& parallel, float* values);
 
 /// Adds the compressed residual to the compressed finest mesh: by the gain of its own size, or of `coherence` times the
 /// span of its face if that is larger. Both rasters are of the picture's size; nothing to do without a residual.

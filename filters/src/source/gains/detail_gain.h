@@ -8,6 +8,13 @@
 
 namespace pimg {
 
+/// What decides the gains of some splits; each array has a number for every split.
+struct SplitTraits {
+    const float* contrast = nullptr;    ///< null: each t and u has the gain of its own size
+    const float* visibility = nullptr;  ///< null: all are visible
+    const float* factor = nullptr;      ///< on the gain; null: 1
+};
+
 /// The gain of a detail that belongs to a contrast c, Eq. (2) of the paper but for the gain of the smallest details:
 ///     h(c) = s0 + (g - s0) (1 - c / dmax)^beta,   s0 from dmax on
 ///     g    = quiet + visibility (detail - quiet)
@@ -20,10 +27,8 @@ struct DetailGain {
     /// Turns `count` contrasts into their gains, all visible.
     void apply(float* contrasts, std::size_t count) const;
 
-    /// Multiplies `count` details by the gains of their contrasts and visibilities. Without visibilities all are visible;
-    /// without contrasts each t and u has the gain of its own size.
-    void apply(const Detail* details, const float* contrasts, const float* visibilities, std::size_t count,
-               Detail* compressed) const;
+    /// Multiplies `count` details by their gains.
+    void apply(const Detail* details, const SplitTraits& traits, std::size_t count, Detail* compressed) const;
 };
 
 }  // namespace pimg

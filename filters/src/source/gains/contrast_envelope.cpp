@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "source/contrast_envelope.h"
+#include "source/gains/contrast_envelope.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include <pimg/colour.h>
 
 namespace pimg {
 
@@ -23,17 +25,10 @@ namespace {
 /// height field keeps the peaks of its noise. From there on it falls, to half at some hundred pixels.
 constexpr float kNoise = 3.7f, kClearlyMore = 8.0f, kPeaks = 16.0f;
 
-/// The share of the noise of a pixel that is in the vertices of each split, by the number of pixels that the smaller of
-/// them stands for.
-std::vector<float> noise_shares(const SweepPlan& plan)
+/// The share of the noise of a pixel that is in vertices that stand for so many pixels.
+float noise_share(float pixels)
 {
-    std::vector<float> shares(plan.levels()), pixels(plan.places(), 1.0f);
-    for (Level i = plan.levels(); i-- > 0;) {
-        const PlannedSplit k = plan.split(i);
-        shares[i] = std::min(std::sqrt(std::sqrt(kPeaks / std::min(pixels[k.s], pixels[k.u]))), 1.0f);
-        pixels[k.s] += pixels[k.u];
-    }
-    return shares;
+    return std::min(std::sqrt(std::sqrt(kPeaks / pixels)), 1.0f);
 }
 
 float visibility(float contrast, float noise)
@@ -42,16 +37,14 @@ float visibility(float contrast, float noise)
     return share * share * (3.0f - 2.0f * share);
 }
 
-}  // namespace
-
-Envelope contrast_envelope(const PlannedBands& bands, const EnvelopeOptions& options, const ParallelFor& parallel)
+/// Fills in contrasts and, of the pixels of the splits if there are any, visibilities.
+void measure(const PlannedBands& bands, const EnvelopeOptions& options, const std::vector<float>& pixels,
+             const ParallelFor& parallel, Envelope& envelope)
 {
     const SweepPlan& plan = bands.plan;
     const NoiseTable noise(options.noise);
-    Envelope envelope;
     envelope.contrast.resize(plan.levels());
-    if (!options.noise.none())
-        envelope.visibility = noise_shares(plan);
+    envelope.visibility.resize(pixels.size());
     std::vector<float> values(plan.places());
     std::vector<float> contrast(plan.places(), options.range);  // of the vertices that exist so far
     plan.set_base(bands.base, 1.0f, values.data());
@@ -67,28 +60,50 @@ Envelope contrast_envelope(const PlannedBands& bands, const EnvelopeOptions& opt
             const float u = s + k.wau * (contrast[k.au] - s) + k.wbu * (contrast[k.bu] - s);
             const float e = own + options.coherence * (0.5f * (t + u) - own);
             envelope.contrast[i] = contrast[k.s] = contrast[k.u] = e;
-            if (!envelope.visibility.empty())
-                envelope.visibility[i] = visibility(own, envelope.visibility[i] * noise.at(values[k.s]));
+            if (!pixels.empty())
+                envelope.visibility[i] = visibility(own, noise_share(pixels[i]) * noise.at(values[k.s]));
             return d;
         });
     });
+}
+
+}  // namespace
+
+Envelope contrast_envelope(const PlannedBands& bands, const EnvelopeOptions& options, const ParallelFor& parallel)
+{
+    Envelope envelope;
+    const bool has_contrasts = options.coherence > 0.0f, has_noise = has_contrasts && !options.noise.none();
+    std::vector<float> pixels;
+    if (has_noise)
+        pixels = pixels_of_splits(bands.plan);
+    if (options.diagonal > 0.0f)
+        envelope.size = feature_sizes(bands.plan, bands.base, bands.details, options.diagonal, options.range, parallel);
+    if (has_contrasts)
+        measure(bands, options, pixels, parallel, envelope);
     return envelope;
 }
 
-void compress(const PlannedBands& bands, const DetailGain& gain, const Envelope* envelope, const ParallelFor& parallel,
-              float* values)
+void compress(const PlannedBands& bands, const DetailGain& gain, const SizeGains& sizes, const Envelope& envelope,
+              const ParallelFor& parallel, float* values)
 {
-    const float* contrasts = envelope != nullptr ? envelope->contrast.data() : nullptr;
-    const float* visibilities =
-        envelope != nullptr && !envelope->visibility.empty() ? envelope->visibility.data() : nullptr;
+    const auto from = [](const std::vector<float>& numbers, Level i) {
+        return numbers.empty() ? nullptr : numbers.data() + i;
+    };
     bands.plan.set_base(bands.base, gain.s0, values);
     bands.plan.for_splits(parallel, [&](Level first, Level last) {
         constexpr Level kBatch = 512;  // details that are compressed together, before the sweep takes them
         Detail compressed[kBatch];
+        float factors[kBatch];
         for (Level begin = first, end; begin < last; begin = end) {
             end = std::min(begin + kBatch, last);
-            gain.apply(&bands.details[begin], contrasts ? contrasts + begin : nullptr,
-                       visibilities ? visibilities + begin : nullptr, end - begin, compressed);
+            SplitTraits traits { from(envelope.contrast, begin), from(envelope.visibility, begin), nullptr };
+            if (!envelope.size.empty()) {
+                for (Level i = begin; i < end; ++i)
+                    factors[i - begin] = sizes.of(envelope.size[i]);
+                exp2_in_place(factors, end - begin);
+                traits.factor = factors;
+            }
+            gain.apply(&bands.details[begin], traits, end - begin, compressed);
             bands.plan.sweep(begin, end, values, [&](Level i) { return compressed[i - begin]; });
         }
     });
