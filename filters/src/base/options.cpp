@@ -212,7 +212,7 @@ const std::vector<Option<BuildOptions>>& option_table<BuildOptions>()
           { "layer", 0, 0, "", "", "layer that is the picture; else R,G,B, or the beauty, or the only layer" } },
         { &T::wrap,
           { "wrap", 0, 0, "", "none|x|xy",
-            "sides that meet: x of a lat-long panorama, xy of a tile; else as the metadata say" } },
+            "sides that meet: x, a lat-long panorama; xy, a tile; else as metadata say" } },
         { &T::mesh,
           { "mesh", 0, 0, "", "full|adaptive",
             "full: a vertex for every pixel; adaptive: fewer, faster and still exact" } },
@@ -373,7 +373,7 @@ const std::vector<Option<HdrCompressOptions>>& option_table<HdrCompressOptions>(
         { &T::exposure, { "exposure", -20, 20, "stops", "", "added to the exposure" } },
         { &T::output,
           { "output", 0, 0, "", "display|scene|gain",
-            "display: for a display; scene: scene-linear, 0.18 stays; gain: log2 of the factor to scene" } },
+            "for a display; scene-linear, where 0.18 stays; or log2 of the factor to that" } },
         { &T::peak, { "peak", 100, 4000, "nits", "", "brightest that the display shows; white, 1, is 203 nits" } },
         { &T::aovs, { "aovs", 0, 0, "", "", "with output=scene: every layer of light gets the picture's gain" } },
         { &T::fine, { "fine", -8, 4, "stops", "", "raises the gain of small details, to 1/400 of the diagonal" } },
@@ -385,7 +385,7 @@ const std::vector<Option<HdrCompressOptions>>& option_table<HdrCompressOptions>(
         { &T::highlights, { "highlights", -8, 8, "stops", "", "raises what is 3 stops or more above middle grey" } },
         { &T::zones,
           { "zones", 0, 0, "", "",
-            "instead of these three: stops above middle grey:stops raised,... linear in between" } },
+            "the same as a curve: stops above middle grey:stops raised,... linear between" } },
     };
     return table;
 }
