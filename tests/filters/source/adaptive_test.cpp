@@ -34,7 +34,7 @@ double mean_difference(const ImageBuf& a, const ImageBuf& b)
 
 TEST(Adaptive, NeutralSettingsReturnTheSource)
 {
-    for (OIIO::TypeDesc type : { OIIO::TypeUInt8, OIIO::TypeUInt16, OIIO::TypeHalf, OIIO::TypeFloat })
+    for (const OIIO::TypeDesc& type : { OIIO::TypeUInt8, OIIO::TypeUInt16, OIIO::TypeHalf, OIIO::TypeFloat })
         for (int channels : { 1, 3, 4, 5 })
             for (const char* guide : { "luma", "rgb", "log" }) {
                 const ImageBuf src = hdr_scene(60, 40, type, channels, type.is_floating_point() ? 1.0f : 0.02f);

@@ -68,7 +68,7 @@ TEST(Guide, ColourGuidesKeepEdgesOfEqualLuma)
 
 TEST(Guide, EveryGuideReturnsTheSourceAtTheFinestLevel)
 {
-    for (OIIO::TypeDesc type : { OIIO::TypeUInt8, OIIO::TypeFloat })
+    for (const OIIO::TypeDesc& type : { OIIO::TypeUInt8, OIIO::TypeFloat })
         for (int channels : { 1, 2, 3, 4 })
             for (const char* guide : { "luma", "log", "rgb", "lab" }) {
                 const ImageBuf src = hdr_scene(40, 30, type, channels, type == OIIO::TypeFloat ? 1.0f : 0.02f);
