@@ -42,6 +42,39 @@ def parts_of(name):
     return parts
 
 
+class Encoded(pictures.ToolTest):
+    """Encoded samples in files of floats, which are taken as linear light otherwise."""
+
+    def test_openexr_files_say_so(self):
+        picture = pictures.scene(64, 48)
+        for source, kind in (("in.png", "uint8"), ("in.tif", "uint16"), ("in.jpg", "uint8")):
+            pictures.write(source, picture, kind)
+            for kind in ([], ["-d", "float"]):
+                self.ok(source, *kind, "-o", "encoded.exr")
+                self.assertEqual(spec_of("encoded.exr").get_string_attribute("colorInteropID"), "srgb_rec709_scene")
+                self.assertLess(np.abs(read("encoded.exr") - read(source)).max(), 1e-3)  # the numbers stay
+                self.ok(source, "--hdr-compress", "-o", "expected.png")
+                self.ok("encoded.exr", "--hdr-compress", "-o", "out.png")
+                self.assertLess(np.abs(pictures.codes("out.png") - pictures.codes("expected.png")).mean(), 2)
+                self.ok("encoded.exr", "-d", "uint8", "-o", "back.png")  # and are not encoded twice
+                self.assertLess(np.abs(read("back.png") - read(source)).max(), 0.005)
+
+    def test_linear_light_is_not_called_encoded(self):
+        pictures.write("in.png", pictures.scene(64, 48), "uint8")
+        self.ok("in.png", "-d", "half", "-o", "encoded.exr")
+        for source in ("in.png", "encoded.exr"):
+            for words in (["--hdr-compress"], ["--tocolorspace", "linear"]):
+                self.ok(source, *words, "-d", "half", "-o", "linear.exr")
+                self.assertEqual(spec_of("linear.exr").get_string_attribute("colorInteropID"), "")
+
+    def test_formats_without_a_word_for_it_are_warned_of(self):
+        pictures.write("in.png", pictures.scene(64, 48), "uint8")
+        done = self.run_tool("in.png", "-o", "out.hdr")
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (0, 1))
+        self.assertIn("the samples are encoded, but hdr files of float are taken as linear light", done.stderr)
+        self.ok("in.png", "--tocolorspace", "linear", "-o", "out.hdr")
+
+
 class Parts(pictures.ToolTest):
     """A render with depth, two views and IDs, each a part of its own."""
 

@@ -2,6 +2,7 @@
 #include "session/part.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <memory>
@@ -12,6 +13,7 @@
 
 #include <pimg/colour.h>
 #include <pimg/detail/format.h>
+#include <pimg/display.h>
 #include <pimg/labels.h>
 
 #include "session/colour.h"
@@ -219,6 +221,50 @@ bool knows_unassociated(const ImageOutput& out)
     return false;
 }
 
+/// Whether samples are those of sRGB, whatever the space is called.
+bool is_srgb(const pimg::Colour& colour)
+{
+    constexpr float kSame = 1e-3f;  // a quarter of an 8-bit step
+    const float encoded[3] = { 0.2f, 0.5f, 0.8f };
+    float rgb[3] = { encoded[0], encoded[1], encoded[2] };
+    colour.decode(rgb, 1);
+    colour.to_rec709(rgb, 1);
+    bool same = true;
+    for (std::size_t c = 0; c < 3; ++c)
+        same = same && std::fabs(rgb[c] - float(pimg::srgb_decoded(double(encoded[c])))) < kSame;
+    return same;
+}
+
+/// Files of floats are taken as linear light, so one of encoded samples must say that they are not. OpenEXR has an
+/// attribute for the name of the space, by the Color Interop Forum; TIFF has ICC profiles, and .pimg has all metadata. Otherwise, a warning.
+bool declare_encoding(const OutputPicture& picture, ImageOutput& out, const std::string& scratch, Part& part,
+                      const OutputReport& report)
+{
+    if (picture.labels || part.is_encoded || part.source->deep())
+        return true;
+    ImageSpec meaning = part.source->spec();
+    meaning.format = part.source->nativespec().format;
+    const pimg::Colour colour = meaning_of(meaning);
+    const std::string format_name = out.format_name();
+    if (!colour.encoded() || format_name == "pimg" || format_name == "null"
+        || (format_name == "tiff" && part.spec.find_attribute("ICCProfile") != nullptr))
+        return true;
+    TypeDesc type = part.spec.format;
+    if (!stored_type(out, scratch, part.spec.nchannels, type, report.error))
+        return false;
+    if (!type.is_floating_point())
+        return true;
+    const std::string space = is_srgb(colour) ? "srgb_rec709_scene" : colour.config_name();
+    if (format_name == "openexr" && !space.empty())
+        part.spec.attribute("colorInteropID", space);
+    else if (!meaning.format.is_floating_point())  // who made floats of them has thought of it
+        add_warning(report.warning,
+                    format("the samples are encoded, but {} files of {} are taken as linear light: --tocolorspace "
+                           "linear converts them",
+                           format_name, type));
+    return true;
+}
+
 }  // namespace
 
 void add_warning(std::string& warning, const std::string& more)
@@ -266,6 +312,8 @@ bool make_part(const OutputPicture& picture, const std::string& filename, ImageO
         part.source = &part.encoded;
     }
     part.spec = file_spec(*part.source, types, out);
+    if (!declare_encoding(picture, out, scratch, part, report))
+        return false;
     if (has_pimg_extension(filename))
         pimg::io::add_hints(part.spec, picture.options);
     return !picture.labels || avoid_lossy_codec(picture, out, scratch, part.spec, report);
