@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pimg.imageio as programs see it: through OpenImageIO, which finds the plugin in $OIIO_LIBRARY_PATH.
+#include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <functional>
@@ -30,6 +31,17 @@ void expect_same(const Picture& picture, OIIO::ImageInput& in)
     EXPECT_EQ(in.spec().roi(), picture.spec.roi());
     EXPECT_EQ(in.spec().roi_full(), picture.spec.roi_full());
     EXPECT_TRUE(read_native(in) == picture.pixels);
+}
+
+/// Calls body(t) for every t below `count`, each on a thread of its own.
+template<class Body>
+void on_threads(unsigned count, const Body& body)
+{
+    std::vector<std::thread> threads(count);
+    for (unsigned t = 0; t < count; ++t)
+        threads[t] = std::thread([&body, t] { body(t); });
+    for (std::thread& thread : threads)
+        thread.join();
 }
 
 // ---- samples, windows, metadata ---------------------------------------------------------------------------------
@@ -274,7 +286,8 @@ TEST(Plugin, ReadsPartsInAnyOrder)
     for (std::size_t y = 250; y < 262; ++y)
         for (std::size_t x = 0; x < 300; ++x) {
             const std::uint8_t* to = &gaps[(y - 250) * kRow + x * kPixel];
-            ASSERT_EQ(std::memcmp(to, &all[(y * 300 + x) * 5 + 1], 12), 0);
+            const auto* expected = reinterpret_cast<const std::uint8_t*>(&all[(y * 300 + x) * 5 + 1]);
+            ASSERT_TRUE(std::equal(to, to + 12, expected));
             ASSERT_EQ(to[12], 0xee);
         }
     EXPECT_FALSE(in->read_scanline(spec.y - 1, 0, TypeDesc::UNKNOWN, gaps.data()));
@@ -504,20 +517,15 @@ TEST(Plugin, OneReaderServesManyThreads)
         }
         EXPECT_EQ(levels.size(), std::strchr(name, '=') ? 10u : 1u);
         std::atomic<int> wrong { 0 };
-        std::vector<std::thread> threads;
-        for (unsigned t = 0; t < 8; ++t)
-            threads.emplace_back([&, t] {
-                for (unsigned i = 0; i < 12; ++i) {
-                    const int m = int((t * 7 + i) % levels.size());
-                    const ImageSpec spec = in->spec(0, m);
-                    std::vector<std::uint8_t> pixels(spec.image_bytes(true));
-                    if (!in->read_image(0, m, 0, 3, TypeDesc::UNKNOWN, pixels.data())
-                        || pixels != levels[std::size_t(m)])
-                        ++wrong;
-                }
-            });
-        for (std::thread& thread : threads)
-            thread.join();
+        on_threads(8, [&](unsigned t) {
+            for (unsigned i = 0; i < 12; ++i) {
+                const int m = int((t * 7 + i) % levels.size());
+                const ImageSpec spec = in->spec(0, m);
+                std::vector<std::uint8_t> pixels(spec.image_bytes(true));
+                if (!in->read_image(0, m, 0, 3, TypeDesc::UNKNOWN, pixels.data()) || pixels != levels[std::size_t(m)])
+                    ++wrong;
+            }
+        });
         EXPECT_EQ(wrong, 0) << name;
     }
 }
@@ -541,16 +549,12 @@ TEST(Plugin, OneReaderServesThreadsAndTasksOfThePool)
         const auto in = open(name);
         in->threads(4);
         std::atomic<int> wrong { 0 };
-        std::vector<std::thread> threads;
-        for (int t = 0; t < 8; ++t)
-            threads.emplace_back([&, t] {
-                const int level = t % 2;
-                auto task = pool->push([&, level](int) { wrong += read(*in, level) != expected[level]; });
-                wrong += read(*in, level) != expected[level];
-                task.wait();
-            });
-        for (std::thread& thread : threads)
-            thread.join();
+        on_threads(8, [&](unsigned t) {
+            const int level = int(t % 2);
+            auto task = pool->push([&, level](int) { wrong += read(*in, level) != expected[level]; });
+            wrong += read(*in, level) != expected[level];
+            task.wait();
+        });
         EXPECT_EQ(wrong, 0);
     }
     pool->resize(before);
@@ -570,21 +574,17 @@ TEST(Plugin, WorksInCacheAndTextureSystem)
 
         auto* textures = OIIO::TextureSystem::create(false);
         std::atomic<int> wrong { 0 };
-        std::vector<std::thread> threads;
-        for (int t = 0; t < 4; ++t)
-            threads.emplace_back([&] {
-                for (int i = 0; i < 200; ++i) {
-                    OIIO::TextureOpt options;
-                    options.swrap = options.twrap = OIIO::TextureOpt::WrapClamp;
-                    const float s = (float(i % 20) + 0.5f) / 20, width = i % 3 == 0 ? 0.2f : 0.001f;
-                    float found[3] = {};
-                    if (!textures->texture(OIIO::ustring(name), options, s, 0.5f, width, 0, 0, width, 3, found)
-                        || std::abs(found[0] - slope_at(s * 256 - 0.5f, 63.5f, 0)) > 0.03f)
-                        ++wrong;
-                }
-            });
-        for (std::thread& thread : threads)
-            thread.join();
+        on_threads(4, [&](unsigned) {
+            for (int i = 0; i < 200; ++i) {
+                OIIO::TextureOpt options;
+                options.swrap = options.twrap = OIIO::TextureOpt::WrapClamp;
+                const float s = (float(i % 20) + 0.5f) / 20, width = i % 3 == 0 ? 0.2f : 0.001f;
+                float found[3] = {};
+                if (!textures->texture(OIIO::ustring(name), options, s, 0.5f, width, 0, 0, width, 3, found)
+                    || std::abs(found[0] - slope_at(s * 256 - 0.5f, 63.5f, 0)) > 0.03f)
+                    ++wrong;
+            }
+        });
         EXPECT_EQ(wrong, 0) << name << textures->geterror();
         OIIO::TextureSystem::destroy(textures);
     }
