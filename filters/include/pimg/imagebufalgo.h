@@ -102,6 +102,7 @@ inline constexpr FilterForms<FeatureLowpassOptions> feature_lowpass { "feature_l
 ///   curve                 Multiplies the details of every split by a factor that depends on its position among them.
 ///   strength, noise, log  Multiplies what feature_lowpass() of that strength removes by `gain`, less on edges, so that
 ///                         they keep their shape.
+/// What is no more than noise is not amplified, unless denoise = 0; texture that covers the whole picture counts as noise.
 /// gain = 1 returns the source, bit for bit. dst: floating point, since results may leave the range of the source.
 inline constexpr FilterForms<DetailEnhanceOptions> detail_enhance { "detail_enhance", on_hierarchy::detail_enhance };
 

@@ -325,6 +325,9 @@ const std::vector<Option<DetailEnhanceOptions>>& option_table<DetailEnhanceOptio
                         { "from", 0, kAnyInt, "", "",
                           "without strength, noise and log: first split amplified, a share or, above 1, a number" } });
         all.push_back({ &T::to, { "to", 0, kAnyInt, "", "", "end of the range of splits, in the same way" } });
+        all.push_back({ &T::denoise,
+                        { "denoise", 0, 4, "", "",
+                          "details within this many times the noise are not amplified; 0: none is noise" } });
         all.push_back({ &T::curve,
                         { "curve", 0, 0, "", "",
                           "instead of gain, from and to: position:gain,position:gain,... linear in between" } });
@@ -384,8 +387,7 @@ const std::vector<Option<HdrCompressOptions>>& option_table<HdrCompressOptions>(
         { &T::midtones, { "midtones", -8, 8, "stops", "", "raises what is near middle grey" } },
         { &T::highlights, { "highlights", -8, 8, "stops", "", "raises what is 3 stops or more above middle grey" } },
         { &T::zones,
-          { "zones", 0, 0, "", "",
-            "the same as a curve: stops above middle grey:stops raised,... linear between" } },
+          { "zones", 0, 0, "", "", "the same as a curve: stops above middle grey:stops raised,... linear between" } },
     };
     return table;
 }

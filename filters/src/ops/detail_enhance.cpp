@@ -12,6 +12,7 @@
 #include "base/curve_text.h"
 #include "frame/image_filter.h"
 #include "frame/positive_light.h"
+#include "source/samples/above_noise.h"
 
 namespace pimg {
 namespace ImageBufAlgo {
@@ -151,6 +152,21 @@ void enhance_by(ProgressiveImage::Data& data, const PlannedChannels& planned, co
     }
 }
 
+/// Leaves the details of splits that are no more than noise as they are, where they would be amplified.
+bool calm(ProgressiveImage::Data& data, float denoise, const ParallelFor& parallel, std::vector<float>& more,
+          std::string& error)
+{
+    if (denoise == 0.0f || std::none_of(more.begin(), more.end(), [](float m) { return m > 0.0f; }))
+        return true;
+    const auto visibility = data.visibility(denoise, parallel, error);
+    if (visibility == nullptr)
+        return false;
+    for (std::size_t i = 0; i < visibility->size(); ++i)
+        if (more[i] > 0.0f)
+            more[i] *= (*visibility)[i];
+    return true;
+}
+
 bool by_position(ProgressiveImage::Data& data, const DetailEnhanceOptions& options, const ParallelFor& parallel,
                  Channels& results, std::string& error)
 {
@@ -165,7 +181,56 @@ bool by_position(ProgressiveImage::Data& data, const DetailEnhanceOptions& optio
     const auto planned = channels != nullptr ? data.planned_channels(parallel, error) : nullptr;
     if (planned == nullptr)
         return false;
-    enhance_by(data, *planned, *channels, gains_less_one(curve, levels), parallel, results);
+    std::vector<float> more = gains_less_one(curve, levels);
+    if (!calm(data, options.denoise, parallel, more, error))
+        return false;
+    enhance_by(data, *planned, *channels, more, parallel, results);
+    return true;
+}
+
+/// The standard deviation of the noise of every pixel, in the units of `smoothing`.
+std::vector<float> noise_of_pixels(const SmoothingData& smoothing, const LogLuminance& luminance, const Colour& colour,
+                                   const NoiseModel& noise, const ParallelFor& parallel)
+{
+    constexpr float kLn2 = 0.6931472f;
+    constexpr float kSlope = 1.0f / 2.2f;  ///< relative change of an encoded sample for that of its light, about
+    const NoiseTable table(noise);
+    const Channels& samples = smoothing.source.samples;
+    std::vector<float> deviations(luminance.guide.samples.size());
+    in_batches(parallel, deviations.size(), [&](std::size_t i) {
+        const float stops = table.at(luminance.guide.samples[i]) / kUnitsPerStop;
+        float squares = 0.0f;
+        for (const std::vector<float>& channel : samples)
+            squares += channel[i] * channel[i];
+        const float sample = std::sqrt(squares / float(samples.size()));
+        deviations[i] = smoothing.log ? stops : stops * kLn2 * sample * (colour.encoded() ? kSlope : 1.0f);
+    });
+    return deviations;
+}
+
+/// Takes back what was added to noise.
+bool calm_pixels(ProgressiveImage::Data& data, const DetailEnhanceOptions& options, const SmoothingData& smoothing,
+                 const ParallelFor& parallel, Channels& results, std::string& error)
+{
+    if (options.gain <= 1.0f || options.denoise == 0.0f || data.hierarchy.mesh_pixels() != data.spec.image_pixels())
+        return true;
+    const LogBands* log = data.log_bands(parallel, error);
+    if (log == nullptr)
+        return false;
+    const NoiseModel noise = data.noise(parallel).times(options.denoise);
+    if (noise.none())
+        return true;
+    const Channels& samples = smoothing.source.samples;
+    for (std::size_t c = 0; c < results.size(); ++c)  // now the texture that is amplified
+        in_batches(parallel, results[c].size(),
+                   [&](std::size_t i) { results[c][i] = (results[c][i] - samples[c][i]) / (options.gain - 1.0f); });
+    const std::vector<float> share =
+        share_above_noise(results, noise_of_pixels(smoothing, log->luminance, data.colour, noise, parallel),
+                          data.hierarchy.mesh_width(), data.hierarchy.mesh_height(), parallel);
+    for (std::size_t c = 0; c < results.size(); ++c)
+        in_batches(parallel, results[c].size(), [&](std::size_t i) {
+            results[c][i] = samples[c][i] + (options.gain - 1.0f) * share[i] * results[c][i];
+        });
     return true;
 }
 
@@ -187,6 +252,8 @@ bool by_strength(ProgressiveImage::Data& data, const DetailEnhanceOptions& optio
         return true;
     }
     enhance(data.hierarchy, smoothing.source, smoothing_options, options.gain, results);
+    if (!calm_pixels(data, options, smoothing, parallel, results, error))
+        return false;
     to_picture(data.hierarchy, smoothing, results);
     return true;
 }

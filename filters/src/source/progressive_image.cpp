@@ -418,6 +418,8 @@ std::size_t ProgressiveImage::Data::memory()
         total += (m_envelope->contrast.capacity() + m_envelope->visibility.capacity()) * sizeof(float)
             + m_envelope->size.capacity() * sizeof(FeatureSize);
     total += m_without_texture.capacity() * sizeof(float);
+    if (m_visibility != nullptr)
+        total += m_visibility->capacity() * sizeof(float);
     return total;
 }
 

@@ -83,6 +83,10 @@ struct ProgressiveImage::Data {
     std::shared_ptr<const Envelope> envelope(const std::shared_ptr<const PlannedBands>& planned,
                                              const EnvelopeOptions& how, const ParallelFor& parallel);
 
+    /// How visible the details of every split are beside `times` times the noise, 0 to 1, in the order of the hierarchy;
+    /// empty if there is no noise. Kept for what it was last asked for. Null, with an error, like the bands.
+    std::shared_ptr<const std::vector<float>> visibility(float times, const ParallelFor& parallel, std::string& error);
+
     /// A vector that held a raster before, if one is left: new memory would have to be cleared for every new setting.
     std::vector<float> take_scratch();
     void keep_scratch(std::vector<float>&& scratch);
@@ -124,6 +128,8 @@ private:
     std::shared_ptr<const PlannedBands> m_planned_log;
     int m_log_sweeps = 0;
     std::vector<float> m_without_texture;
+    float m_visible_beside = -1.0f;  ///< times the noise
+    std::shared_ptr<const std::vector<float>> m_visibility;
     std::unique_ptr<Overview> m_overview;
     std::shared_ptr<const PlannedBands> m_envelope_bands;
     EnvelopeOptions m_envelope_options;

@@ -41,6 +41,24 @@ std::shared_ptr<const PlannedBands> ProgressiveImage::Data::planned_log_bands(co
     return m_planned_log;
 }
 
+std::shared_ptr<const std::vector<float>> ProgressiveImage::Data::visibility(float times, const ParallelFor& parallel,
+                                                                             std::string& error)
+{
+    const LogBands* log = log_bands(parallel, error);
+    if (log == nullptr)
+        return nullptr;
+    EnvelopeOptions how;
+    how.noise = noise(parallel).times(times);
+    const std::unique_lock<std::mutex> lock = lock_or_stop(m_mutex);
+    if (m_visibility == nullptr || m_visible_beside != times) {
+        const auto in_order = std::make_shared<const SweepPlan>(SweepPlan::unplanned(hierarchy));
+        Envelope envelope = contrast_envelope(PlannedBands(in_order, *log->bands, parallel), how, parallel);
+        m_visibility = std::make_shared<const std::vector<float>>(std::move(envelope.visibility));
+        m_visible_beside = times;
+    }
+    return m_visibility;
+}
+
 std::shared_ptr<const PlannedChannels> ProgressiveImage::Data::planned_channels(const ParallelFor& parallel,
                                                                                 std::string& error)
 {

@@ -116,5 +116,49 @@ TEST(Strength, OnlyOneWayAtATime)
     EXPECT_NE(dst.geterror().find("from"), std::string::npos);
 }
 
+/// A textured wall to the right, a smooth one to the left, and the same noise on both.
+ImageBuf noisy_walls()
+{
+    ImageBuf src = picture(160, 96, 3, OIIO::TypeFloat);
+    for (int y = 0; y < 96; ++y)
+        for (int x = 0; x < 160; ++x) {
+            float deviate = -6.0f;  // nearly normal
+            for (std::uint32_t k = 0; k < 12; ++k)
+                deviate += noise(std::uint32_t(x), std::uint32_t(y), k);
+            const float texture = x < 80 ? 0.0f : 0.15f * float(((x / 5) + (y / 5)) % 2);
+            const float light = 0.3f + texture + 0.01f * deviate, rgb[3] = { light, light, light };
+            src.setpixel(src.xbegin() + x, src.ybegin() + y, rgb);
+        }
+    return src;
+}
+
+TEST(Strength, EnhancementLeavesNoiseAsItIs)
+{
+    const ImageBuf src = noisy_walls();
+    const auto deviation = [](const ImageBuf& buf, int x0) {
+        const std::vector<float> p = pixels(buf);
+        double sum = 0.0, squares = 0.0;
+        for (int y = 10; y < 86; ++y)
+            for (int x = x0; x < x0 + 60; ++x) {
+                const double v = double(p[3 * std::size_t(y * 160 + x)]);
+                sum += v;
+                squares += v * v;
+            }
+        return std::sqrt(squares / (60 * 76) - sum * sum / (60.0 * 76 * 60 * 76));
+    };
+    for (const float strength : { -1.0f, 0.2f }) {  // by position, by strength
+        DetailEnhanceOptions options;
+        options.gain = 3.0f;
+        options.strength = strength;
+        ImageBuf calm, plain;
+        EXPECT_FILTER(calm, ImageBufAlgo::detail_enhance(calm, src, options));
+        options.denoise = 0.0f;
+        EXPECT_FILTER(plain, ImageBufAlgo::detail_enhance(plain, src, options));
+        EXPECT_LT(deviation(calm, 10), 1.3 * deviation(src, 10)) << strength;
+        EXPECT_GT(deviation(plain, 10), 1.8 * deviation(src, 10)) << strength;
+        EXPECT_GT(deviation(calm, 95), 0.85 * deviation(plain, 95)) << strength;
+    }
+}
+
 }  // namespace
 }  // namespace pimg
