@@ -163,6 +163,7 @@ bool Session::write(const std::string& filename, const pimg::io::WriteOptions& o
         parts.push_back(&other);
     std::sort(parts.begin(), parts.end(), [](const Picture* a, const Picture* b) { return a->part < b->part; });
     std::vector<OutputPicture> out;
+    out.reserve(parts.size());
     for (const Picture* part : parts)
         out.push_back(output_of(*part));
     const auto picture = std::size_t(std::find(parts.begin(), parts.end(), &top()) - parts.begin());
