@@ -101,8 +101,13 @@ class FullDisk(OutputTest):
             self.assertIn("No space left", result.stderr)
 
     def test_little_address_space_is_one_line(self):
-        result = subprocess.run(["bash", "-c", 'ulimit -v 420000; exec "$@"', "bash", pictures.TOOL, "--version"],
-                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        # How much the libraries alone take, which is the loader's business, differs from machine to machine.
+        for kilobytes in range(380000, 600000, 10000):
+            result = subprocess.run(["bash", "-c", f'ulimit -v {kilobytes}; exec "$@"', "bash", pictures.TOOL, "--version"],
+                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            self.assertEqual(result.stderr.count("\n"), 0 if result.returncode == 0 else 1, result.stderr)
+            if result.returncode != 127:
+                break
         self.assertEqual((result.returncode, result.stderr), (1, "pimgtool: error: not enough memory\n"))
 
 
@@ -256,7 +261,7 @@ class Files(OutputTest):
 
     def test_other_formats_and_names(self):
         os.mkdir("a b:c=d")
-        names = ("out.jpg", "out.hdr", "out.bmp", "out.tga", "out.ppm", "out.dpx", "OUT.EXR", "a b:c=d/e#1.png")
+        names = ("out.jpg", "out.bmp", "out.tga", "out.ppm", "out.dpx", "OUT.EXR", "a b:c=d/e#1.png")
         self.ok("rgb.png", "--level", *(word for name in names for word in ("-o", name)), names[-1], "-o", "copy.png")
         for name in names:
             self.assertEqual(read(name).shape, (30, 40, 3), name)

@@ -49,6 +49,7 @@ struct Program {
     bool informs = false;                      ///< something is printed that needs no pictures
     std::string stats;                         ///< how to print figures: text, json; empty: not
     bool verbose = false;
+    bool gain_maps = false;   ///< a file with a gain map is written
     bool autoorient = false;  ///< pictures are turned upright whatever is written
     Frame frame;
     int compressions = 0;  ///< number of --hdr-compress

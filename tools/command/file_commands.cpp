@@ -41,34 +41,72 @@ namespace {
 
 using pimg::format;
 
-/// -o:profile=compact a.pimg, or the same as -o a.pimg:profile=compact. A file keeps the hierarchy unless told
+/// Moves keys behind the name of a file, as in a.pimg:profile=compact, to those of the call.
+bool take_keys(std::string& filename, Call& call, std::string& error)
+{
+    for (const char* extension : { ".pimg:", ".jpg:", ".jpeg:" }) {
+        const std::size_t found = filename.rfind(extension);
+        if (found == std::string::npos)
+            continue;
+        const std::size_t colon = filename.find(':', found);
+        if (!split_keys(filename.substr(colon), call, error))
+            return false;
+        filename.erase(colon);
+    }
+    return true;
+}
+
+/// What the keys of -o say; each kind of file has its own.
+struct OutputKeys {
+    pimg::io::WriteOptions pimg;
+    GainMapRequest jpeg;
+};
+
+bool parse_output_keys(const std::string& filename, const Call& call, OutputKeys& keys, std::string& error)
+{
+    keys.pimg.profile = "full";
+    const OutputKeys defaults = keys;
+    const std::vector<pimg::OptionInfo> of_jpeg = pimg::describe_options<GainMapRequest>();
+    for (const auto& [key, value] : call.keys) {
+        const bool is_jpeg_key = std::any_of(of_jpeg.begin(), of_jpeg.end(),
+                                             [&name = key](const auto& info) { return info.is_called(name); });
+        if (!(is_jpeg_key ? pimg::set_option(keys.jpeg, key, value, error)
+                          : pimg::set_option(keys.pimg, key, value, error)))
+            return false;
+        const bool fits = is_jpeg_key ? has_jpeg_extension(filename) || pimg::same_options(keys.jpeg, defaults.jpeg)
+                                      : has_pimg_extension(filename);
+        if (!fits) {
+            error = format("{}: expected a {} file, not \"{}\"", key, is_jpeg_key ? ".jpg" : ".pimg", filename);
+            return false;
+        }
+    }
+    if (!keys.jpeg.gainmap && !pimg::same_options(keys.jpeg, defaults.jpeg)) {
+        error = format("{}: expected gainmap=1 with it", call.keys.front().first);
+        return false;
+    }
+    return true;
+}
+
+/// -o:profile=compact a.pimg, or the same as -o a.pimg:profile=compact. A .pimg file keeps the hierarchy unless told
 /// otherwise.
 bool output_file(const Call& call, Program& program, std::string& error)
 {
-    Call keys = call;
+    Call with_keys = call;
     std::string filename = call.words[0];
-    const std::size_t colon = filename.rfind(".pimg:");
-    if (colon != std::string::npos) {
-        if (!split_keys(filename.substr(colon + 5), keys, error))
-            return false;
-        filename.erase(colon + 5);
-    }
-    pimg::io::WriteOptions options;
-    options.profile = "full";
-    if (!pimg::set_options(options, keys.keys, error))
+    OutputKeys keys;
+    if (!take_keys(filename, with_keys, error) || !parse_output_keys(filename, with_keys, keys, error))
         return false;
-    if (!keys.keys.empty() && !has_pimg_extension(filename)) {
-        error = format("{}: expected a .pimg file, not \"{}\"", keys.keys[0].first, filename);
-        return false;
-    }
     if (!can_write(filename, error)) {
         error = format("cannot write \"{}\": {}", filename, error);
         return false;
     }
+    program.gain_maps |= keys.jpeg.gainmap;
     program.written.push_back(filename);
     program.dangling.clear();
-    program.steps.push_back(
-        { call.command->name, [=](Session& session) { return session.write(filename, options); }, true });
+    const auto write = [=](Session& session) {
+        return keys.jpeg.gainmap ? session.write(filename, keys.jpeg) : session.write(filename, keys.pimg);
+    };
+    program.steps.push_back({ call.command->name, write, true });
     return true;
 }
 
@@ -78,7 +116,17 @@ std::vector<pimg::OptionInfo> output_keys()
     for (pimg::OptionInfo& key : keys)
         if (key.key == "profile")
             key.default_value = "full";
+    for (const pimg::OptionInfo& key : pimg::describe_options<GainMapRequest>())
+        keys.push_back(key);
     return keys;
+}
+
+bool gainmap(const Call& call, Program& program, std::string&)
+{
+    program.steps.push_back({ call.command->name, [](Session& session) {
+                                 return session.take_rendition();
+                             } });
+    return true;
 }
 
 bool info(const Call& call, Program& program, std::string& error)
@@ -245,6 +293,8 @@ CommandGroup input_group()
             setting("--part", "PART",
                     "which part of the files after it is the picture: a number from 0, a name, or all, to keep them",
                     part),
+            { "--gainmap", "", "takes the HDR rendition of a JPEG file with a gain map, instead of its base", 1, 0,
+              nullptr, gainmap },
             setting("--iconfig", "NAME VALUE",
                     "a hint for readers of the files after it: oiio:UnassociatedAlpha 1 keeps colours under alpha 0",
                     iconfig, pimg::describe_options<HintOptions>),
@@ -257,8 +307,8 @@ CommandGroup output_group()
     return {
         "Output",
         {
-            { "-o", "FILE", "writes the top picture, which stays on the stack; the keys are for .pimg files", 1, 0,
-              output_keys, output_file },
+            { "-o", "FILE", "writes the top picture, which stays on the stack; the keys are for .pimg and .jpg files",
+              1, 0, output_keys, output_file },
             setting("--info", "FILE", "prints what is in a .pimg file: windows, channels, sizes of its parts", info),
             setting("-d", "TYPE",
                     "pixel type of the files written after it: uint8, uint16, half, float ...; CHANNEL=TYPE for one",

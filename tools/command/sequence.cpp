@@ -191,6 +191,7 @@ bool for_each_frame(const std::vector<Program>& programs, bool parallel, Stats& 
             const Program& program = programs[i];
             Session session;
             session.verbose = program.verbose;
+            session.keeps_renditions = program.gain_maps;
             session.input.upright = turns_upright(program);
             session.input.keeps_parts = keeps_parts(program);
             for (const std::string& input : program.inputs)

@@ -27,30 +27,6 @@ namespace Strutil = OIIO::Strutil;
 
 using Progress = std::function<void(float)>;
 
-/// Turns a picture as Orientation of its metadata asks. OpenImageIO's reorient() exchanges 5 and 7 before version 3.1.
-bool turn_upright(ImageBuf& pixels)
-{
-    ImageBuf turned;
-    const int orientation = pixels.orientation();
-    bool done = false;
-    if (orientation == 5 || orientation == 7) {
-        pixels.set_orientation(1);
-        done = OIIO::ImageBufAlgo::transpose(turned, pixels);
-        if (orientation == 7) {
-            const ImageBuf transposed = std::exchange(turned, ImageBuf());
-            done = done && OIIO::ImageBufAlgo::rotate180(turned, transposed);
-        }
-    } else
-        done = OIIO::ImageBufAlgo::reorient(turned, pixels);
-    if (!done) {
-        pimg::set_error(pixels, turned.geterror());
-        return false;
-    }
-    turned.set_orientation(1);
-    pixels = std::move(turned);
-    return true;
-}
-
 /// A reader for the file; for .pimg files the one that is linked in. `filename` is the name that the user gave: its
 /// extension decides if the first bytes do not tell the format. Null, with a line in `error`, if there is no reader.
 std::unique_ptr<OIIO::ImageInput> open_input(const std::string& filename, const std::string& path,
@@ -188,6 +164,30 @@ void declare_ruled_space(const std::string& filename, InputPart& part)
 }
 
 }  // namespace
+
+// OpenImageIO's reorient() exchanges 5 and 7 before version 3.1.
+bool turn_upright(ImageBuf& pixels)
+{
+    ImageBuf turned;
+    const int orientation = pixels.orientation();
+    bool done = false;
+    if (orientation == 5 || orientation == 7) {
+        pixels.set_orientation(1);
+        done = OIIO::ImageBufAlgo::transpose(turned, pixels);
+        if (orientation == 7) {
+            const ImageBuf transposed = std::exchange(turned, ImageBuf());
+            done = done && OIIO::ImageBufAlgo::rotate180(turned, transposed);
+        }
+    } else
+        done = OIIO::ImageBufAlgo::reorient(turned, pixels);
+    if (!done) {
+        pimg::set_error(pixels, turned.geterror());
+        return false;
+    }
+    turned.set_orientation(1);
+    pixels = std::move(turned);
+    return true;
+}
 
 std::string part_name(const ImageSpec& spec, int number)
 {

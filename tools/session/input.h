@@ -40,6 +40,9 @@ struct InputFile {
 bool read_file(const std::string& filename, const InputOptions& settings, const std::function<void(float)>& progress,
                InputFile& file, std::string& error);
 
+/// Turns a picture as Orientation of its metadata asks. False with an error in the picture.
+bool turn_upright(OIIO::ImageBuf& pixels);
+
 /// What a part is called in messages: its name, else its number.
 std::string part_name(const OIIO::ImageSpec& spec, int number);
 

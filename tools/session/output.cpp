@@ -296,11 +296,24 @@ bool holds_parts(const std::string& filename)
 bool write_parts(const std::vector<OutputPicture>& parts, std::size_t picture, const std::string& filename,
                  const std::function<void(float)>& progress, const OutputReport& report)
 {
-    if (!is_stream(filename))
+    const bool streams = is_stream(filename);
+    const auto& finish = parts[picture].finish;
+    if (!streams && !finish)
         return write_file(parts, picture, filename, progress, report);
-    const TemporaryName scratch(scratch_name(filename));
-    return write_file(parts, picture, scratch.name(), progress, report)
-        && send_to_standard_output(scratch.name(), report.error);
+    const TemporaryName scratch(streams ? scratch_name(filename) : filename);
+    if (!write_file(parts, picture, scratch.name(), progress, report))
+        return false;
+    if (finish) {
+        std::string bytes;
+        if (!Filesystem::read_text_file(scratch.name(), bytes)) {
+            report.error = "what was written cannot be read";
+            return false;
+        }
+        if (!finish(bytes, report.error)
+            || !pimg::write_whole_file(streams ? scratch.name() : filename, bytes, report.error))
+            return false;
+    }
+    return !streams || send_to_standard_output(scratch.name(), report.error);
 }
 
 bool write_picture(const OutputPicture& picture, const std::string& filename,

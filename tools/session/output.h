@@ -38,7 +38,9 @@ struct OutputPicture {
     pimg::io::WriteOptions options = {};         ///< of a .pimg file
     std::string layer = {};                      ///< the picture, for formats that hold nothing else; see BuildOptions
     std::string part = {};                       ///< the name of the part, for messages
-    bool is_straight = false;                    ///< colours are to be multiplied by alpha where the format wants that
+    /// Changes the bytes of the file before it is kept; not for .pimg files.
+    std::function<bool(std::string& bytes, std::string& error)> finish = {};
+    bool is_straight = false;  ///< colours are to be multiplied by alpha where the format wants that
 };
 
 /// What there is to say of a file: a few words on what was written, what is not as asked ("" for nothing), and the line

@@ -146,7 +146,34 @@ OutputPicture Session::output_of(const Picture& picture) const
     return out;
 }
 
+bool Session::write(const std::string& filename, const GainMapRequest& request)
+{
+    if (!top().rendition)
+        return fail(
+            format("cannot write \"{}\": gainmap: expected the result of --hdr-compress for SDR displays", filename));
+    return write(filename, pimg::io::WriteOptions(), [&](std::string& bytes, std::string& error) {
+        return add_rendition(request, top().rendition, bytes, error);
+    });
+}
+
+bool Session::take_rendition()
+{
+    auto pixels = std::make_shared<OIIO::ImageBuf>();
+    if (!read_rendition(top().name, input.upright, *pixels, m_error))
+        return false;
+    Picture picture = picture_of(top().name, { pixels, pixels->spec(), 0, false });
+    picture.hierarchy->options = top().hierarchy->options;
+    top() = picture;
+    return true;
+}
+
 bool Session::write(const std::string& filename, const pimg::io::WriteOptions& options)
+{
+    return write(filename, options, {});
+}
+
+bool Session::write(const std::string& filename, const pimg::io::WriteOptions& options,
+                    const std::function<bool(std::string& bytes, std::string& error)>& finish)
 {
     pimg::ProgressiveImage stored;
     if (has_pimg_extension(filename) && options.profile == "full") {
@@ -169,6 +196,7 @@ bool Session::write(const std::string& filename, const pimg::io::WriteOptions& o
     const auto picture = std::size_t(std::find(parts.begin(), parts.end(), &top()) - parts.begin());
     out[picture].hierarchy = stored.initialized() ? &stored.hierarchy() : nullptr;
     out[picture].options = options;
+    out[picture].finish = finish;
     ProgressBar bar(label("writing", filename));
     std::string summary, warning, error;
     const auto show = [&](float done) {
@@ -250,6 +278,7 @@ bool Session::filter(Picture& picture, const Filter& run, Meaning meaning)
     if (!run(*result, *source))
         return fail(result->has_error() ? result->geterror() : "failed");
     picture.pixels = result;
+    picture.rendition = {};
     // The options of the first build hold for the next one, except the colour space, which the result states itself.
     const pimg::BuildOptions options = picture.hierarchy->options;
     picture.hierarchy = std::make_shared<LazyHierarchy>();
@@ -286,7 +315,16 @@ bool Session::hdr_compress(pimg::HdrCompressOptions options)
     const auto run = [&](OIIO::ImageBuf& dst, const pimg::ProgressiveImage& src) {
         return iba::hdr_compress(dst, src, options) && describe_fit(src, options);
     };
-    return filter(run, options.output == "gain" ? Meaning::gain : Meaning::display_linear);
+    const std::shared_ptr<LazyHierarchy> source = top().hierarchy;
+    if (!filter(run, options.output == "gain" ? Meaning::gain : Meaning::display_linear))
+        return false;
+    const pimg::HdrCompressOptions for_sdr;
+    if (options.output == for_sdr.output && options.peak == for_sdr.peak && options.fit && keeps_renditions)
+        top().rendition = [source, options](OIIO::ImageBuf& dst, float peak) mutable {
+            options.peak = peak;
+            return iba::hdr_compress(dst, source->image, options);
+        };
+    return true;
 }
 
 bool Session::describe_fit(const pimg::ProgressiveImage& image, pimg::HdrCompressOptions options)
@@ -311,6 +349,7 @@ bool Session::change_pixels(Picture& picture, const PixelOperation& run)
     auto hierarchy = std::make_shared<LazyHierarchy>();
     hierarchy->options = picture.hierarchy->options;
     picture.pixels = result;
+    picture.rendition = {};
     picture.hierarchy = hierarchy;
     return true;
 }

@@ -12,6 +12,7 @@
 #include <OpenImageIO/imagebuf.h>
 #include <pimg/progressive_image.h>
 
+#include "session/gain_map_file.h"
 #include "session/input.h"
 #include "session/output.h"
 #include "session/pimg_file.h"
@@ -36,6 +37,7 @@ struct Picture {
     PixelTypes stored;          ///< pixel types of the file it came from: what it is written as unless told otherwise
     bool linear_light = false;  ///< its numbers are linear light that no colour operation has converted
     bool labels = false;        ///< its numbers are those of regions
+    Rendition rendition = {};   ///< the same picture for HDR displays, while it is the result of --hdr-compress
     bool is_straight = false;   ///< its reader was asked not to multiply colours by alpha, and no operation has since
     int part = 0;               ///< its number in that file
     std::vector<Picture> others = {};  ///< the other parts of that file: filtered with it if they hold a picture
@@ -60,6 +62,10 @@ public:
     bool read(const std::string& filename);
     /// `options` is for .pimg files.
     bool write(const std::string& filename, const pimg::io::WriteOptions& options);
+    /// A JPEG file with a gain map.
+    bool write(const std::string& filename, const GainMapRequest& request);
+    /// Replaces the top picture, which was read from a file with a gain map, by its HDR rendition.
+    bool take_rendition();
 
     /// Builds the hierarchy of the top picture now, with the given options.
     bool build(const pimg::BuildOptions& options);
@@ -91,6 +97,7 @@ public:
     InputOptions input;    ///< of the files read from here on
     OutputOptions output;  ///< of the files written from here on
     Stats stats;
+    bool keeps_renditions = false;  ///< a file with a gain map will be written
     bool verbose = false;
 
     pimg::Anchors anchors;   ///< of the frame, known from the shot or measured
@@ -100,6 +107,8 @@ public:
 private:
     const pimg::ProgressiveImage* hierarchy_of(const Picture& picture);
     bool filter(Picture& picture, const Filter& run, Meaning meaning);
+    bool write(const std::string& filename, const pimg::io::WriteOptions& options,
+               const std::function<bool(std::string& bytes, std::string& error)>& finish);
     /// With -v, says what hdr_compress() found.
     bool describe_fit(const pimg::ProgressiveImage& image, pimg::HdrCompressOptions options);
     bool change_pixels(Picture& picture, const PixelOperation& run);

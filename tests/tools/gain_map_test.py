@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""JPEG files with a gain map, written and read by pimgtool."""
+
+import os
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+import OpenImageIO as oiio
+
+TOOL = os.environ["PIMGTOOL"]
+WIDTH, HEIGHT = 160, 120
+
+
+def run(*arguments):
+    return subprocess.run([TOOL, *arguments], capture_output=True, text=True, check=False)
+
+
+def pixels(name):
+    return oiio.ImageBuf(name).get_pixels(oiio.FLOAT)[..., :3]
+
+
+def luminance(rgb):
+    return np.log2(np.maximum(rgb @ np.float32([0.2126, 0.7152, 0.0722]), 1 / 64))
+
+
+class GainMapFiles(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        os.chdir(self.folder.name)
+        self.addCleanup(os.chdir, "/")
+        x, y = np.meshgrid(np.arange(WIDTH, dtype=np.float32), np.arange(HEIGHT, dtype=np.float32))
+        light = 0.05 + 0.001 * x
+        light = np.where((abs(x - 115) < 28) & (abs(y - 40) < 26), 12 + 0.1 * y, light)
+        picture = (light[..., None] * np.float32([1, 0.9, 0.8])).astype(np.float32)
+        buf = oiio.ImageBuf(oiio.ImageSpec(WIDTH, HEIGHT, 3, "float"))
+        buf.set_pixels(buf.roi, picture)
+        buf.write("in.exr")
+
+    def done(self, *arguments):
+        result = run(*arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def refused(self, words, *arguments):
+        result = run(*arguments)
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn(words, result.stderr)
+        self.assertEqual(result.stderr.count("\n"), 1)
+
+    def test_base_and_rendition(self):
+        self.done("in.exr", "--hdr-compress", "-o", "base.jpg", "-o", "out.jpg:gainmap=1:scale=1")
+        self.assertTrue((pixels("base.jpg") == pixels("out.jpg")).all(), "SDR displays show the same")
+        self.done("out.jpg", "--gainmap", "-o", "back.exr")
+        self.done("in.exr", "--hdr-compress:peak=1000", "-o", "wanted.exr")
+        back, wanted = pixels("back.exr"), pixels("wanted.exr")
+        self.assertGreater(wanted.max(), 1.5)
+        self.assertLess(np.percentile(abs(luminance(back) - luminance(wanted)), 95), 0.1)
+
+    def test_size(self):
+        self.done("in.exr", "--hdr-compress", "-o", "base.jpg", "-o:gainmap=1:peak=600:channels=1", "out.jpeg")
+        self.assertLess(os.path.getsize("out.jpeg"), 1.35 * os.path.getsize("base.jpg") + 2048)
+        self.done("out.jpeg", "--gainmap", "-o", "back.exr")
+        self.assertLess(pixels("back.exr").max(), 600 / 203 * 1.1)
+
+    def test_bad_input(self):
+        self.done("in.exr", "--hdr-compress", "-o", "base.jpg")
+        before = open("base.jpg", "rb").read()
+        self.refused("expected the result of --hdr-compress", "in.exr", "-o", "base.jpg:gainmap=1")
+        self.refused("expected the result of --hdr-compress", "in.exr", "--hdr-compress", "--paint", "-o", "base.jpg:gainmap=1")
+        self.refused("expected the result of --hdr-compress", "in.exr", "--hdr-compress:peak=800", "-o", "base.jpg:gainmap=1")
+        self.refused("gainmap=1", "in.exr", "--hdr-compress", "-o", "base.jpg:peak=800")
+        self.refused("channels", "in.exr", "--hdr-compress", "-o", "base.jpg:gainmap=1:channels=2")
+        self.refused("scale", "in.exr", "--hdr-compress", "-o", "base.jpg:gainmap=1:scale=3")
+        self.refused("gainmap", "in.exr", "--hdr-compress", "-o", "out.png:gainmap=1")
+        self.refused("no gain map", "base.jpg", "--gainmap", "-o", "back.exr")
+        self.assertEqual(open("base.jpg", "rb").read(), before)
+        self.assertEqual(sorted(os.listdir(".")), ["base.jpg", "in.exr"])
+
+
+if __name__ == "__main__":
+    unittest.main()
