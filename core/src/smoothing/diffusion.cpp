@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "smoothing/diffusion_rows.h"
+
 namespace pimg {
 
 namespace {
@@ -62,7 +64,8 @@ public:
           m_lengths(step_lengths(m_steps)),
           m_right(m_width, m_steps + 3),
           m_down(m_width, m_steps + 3),
-          m_scale(1.0f / (options.contrast * options.contrast * float(guide.size())))
+          m_scale(1.0f / (options.contrast * options.contrast * float(guide.size()))),
+          m_share(options.share)
     {
     }
 
@@ -70,14 +73,14 @@ public:
 
 private:
     void conductances(int y);
-    void load(const float* samples, int y, RowRing& ring) const;
+    void load(const float* samples, const float* guide, int y, RowRing& ring) const;
     void step(int s, int y, int last, RowRing& from, float* to);
 
     const Channels& m_guide;
     int m_width, m_height, m_steps;
     std::vector<float> m_lengths;
     RowRing m_right, m_down;  ///< conductances to the right and lower neighbours
-    float m_scale;
+    float m_scale, m_share;
 };
 
 /// Row y of both conductances; none leads out of the picture.
@@ -88,49 +91,38 @@ void BandDiffusion::conductances(int y)
     const std::size_t at = std::size_t(y) * std::size_t(m_width), below = y + 1 < m_height ? std::size_t(m_width) : 0;
     std::fill(right, right + m_width, 0.0f);
     std::fill(down, down + m_width, 0.0f);
+    const std::size_t count = std::size_t(m_width);
     for (const std::vector<float>& channel : m_guide) {
         const float* g = &channel[at];
-        for (int x = 0; x + 1 < m_width; ++x)
-            right[x] += (g[x + 1] - g[x]) * (g[x + 1] - g[x]);
-        for (int x = 0; x < m_width; ++x)
-            down[x] += (g[std::size_t(x) + below] - g[x]) * (g[std::size_t(x) + below] - g[x]);
+        add_squares(g, g + 1, count - 1, right);
+        add_squares(g, g + below, count, down);
     }
-    const auto conductance = [scale = m_scale](float square) {
-        const float a = 1.0f + scale * square;
-        return 1.0f / (a * a);
-    };
-    for (int x = 0; x < m_width; ++x)
-        right[x] = conductance(right[x]);
-    for (int x = 0; x < m_width; ++x)
-        down[x] = conductance(down[x]);
+    to_conductances(m_scale, count, right);
+    to_conductances(m_scale, count, down);
     right[-1] = right[m_width - 1] = 0.0f;
     if (below == 0)
         std::fill(down, down + m_width, 0.0f);
 }
 
-void BandDiffusion::load(const float* samples, int y, RowRing& ring) const
+void BandDiffusion::load(const float* samples, const float* guide, int y, RowRing& ring) const
 {
-    const float* p = samples + std::size_t(y) * std::size_t(m_width);
+    const std::size_t first = std::size_t(y) * std::size_t(m_width);
     float* row = ring.row(y);
-    std::copy(p, p + m_width, row);
+    if (m_share == 1.0f)
+        std::copy_n(samples + first, m_width, row);
+    else
+        mix_rows(guide + first, samples + first, m_share, std::size_t(m_width), row);
     row[-1] = row[m_width] = 0.0f;  // met only with a conductance of zero
 }
 
 /// Step s for row y: from the rows around it to `to`. `last` is the last row there is.
 void BandDiffusion::step(int s, int y, int last, RowRing& from, float* to)
 {
-    const float* j = from.row(y);
-    const float* above = y > 0 ? from.row(y - 1) : j;
-    const float* below = y < last ? from.row(y + 1) : j;
-    const float* right = m_right.row(y);
+    const float* row = from.row(y);
     const float* down = m_down.row(y);
-    const float* up = y > 0 ? m_down.row(y - 1) : down;
-    const float length = m_lengths[std::size_t(s - 1)];
-    for (int x = 0; x < m_width; ++x) {
-        const float across = right[x - 1] * (j[x - 1] - j[x]) + right[x] * (j[x + 1] - j[x]);
-        const float along = up[x] * (above[x] - j[x]) + down[x] * (below[x] - j[x]);
-        to[x] = j[x] + length * (across + along);
-    }
+    diffuse_row({ row, y > 0 ? from.row(y - 1) : row, y < last ? from.row(y + 1) : row, m_right.row(y),
+                  y > 0 ? m_down.row(y - 1) : down, down },
+                m_lengths[std::size_t(s - 1)], std::size_t(m_width), to);
 }
 
 void BandDiffusion::run(int begin, int end, const Channels& picture, Channels& result)
@@ -144,7 +136,7 @@ void BandDiffusion::run(int begin, int end, const Channels& picture, Channels& r
             conductances(r);
         for (std::size_t c = 0; c < picture.size(); ++c) {
             if (r <= last)
-                load(picture[c].data(), r, stages[c][0]);
+                load(picture[c].data(), m_guide[std::min(c, m_guide.size() - 1)].data(), r, stages[c][0]);
             for (int s = 1; s <= m_steps; ++s) {
                 const int y = r - s;
                 if (y < first || y > last)

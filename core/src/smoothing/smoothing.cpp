@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include <pimg/bands.h>
 #include <pimg/detail/diffusion.h>
+#include <pimg/detail/lanes.h>
 #include <pimg/detail/piece_means.h>
 #include <pimg/detail/sweep_plan.h>
 
@@ -41,69 +43,58 @@ public:
         : m_plan(plan),
           m_source(source),
           m_scale(1.0f / (tolerance * tolerance) / float(C)),
-          m_values(plan.places() * C)
+          m_values(new float[plan.places() * kLanes<C>])
     {
+        // All places that are read have been written before, but where there is no vertex.
+        if (plan.levels() + source.means[0].base.size() < plan.places())
+            std::fill_n(m_values.get(), plan.places() * kLanes<C>, 0.0f);
     }
 
     void run(const ParallelFor& parallel);
-    const float* values() const { return m_values.data(); }
+    const float* values() const { return m_values.get(); }
 
 private:
-    struct Sample {
-        float c[C];
-    };
-    float* at(Index place) { return &m_values[std::size_t(place) * C]; }
-    Sample predict(Index s, Index a, Index b, float wa, float wb);
-    void place(float* value, const Sample& predicted, const Sample& mean, float evidence) const;
+    using Sample = Lanes<C>;
+    Sample at(Index place) const { return lanes_at<C>(m_values.get(), place); }
+    void place(Index place, Sample predicted, Sample mean, float evidence);
 
     const SweepPlan& m_plan;
     const SmoothingSource& m_source;
     float m_scale;
-    std::vector<float> m_values;
+    std::unique_ptr<float[]> m_values;
 };
 
 template<int C>
-typename FeatureSweep<C>::Sample FeatureSweep<C>::predict(Index s, Index a, Index b, float wa, float wb)
+void FeatureSweep<C>::place(Index place, Sample predicted, Sample mean, float evidence)
 {
-    const float *ps = at(s), *pa = at(a), *pb = at(b);
-    Sample p;
-    for (int c = 0; c < C; ++c)
-        p.c[c] = interpolate(ps[c], pa[c], pb[c], wa, wb);
-    return p;
-}
-
-template<int C>
-void FeatureSweep<C>::place(float* value, const Sample& predicted, const Sample& mean, float evidence) const
-{
+    const Sample off = mean - predicted, squares = off * off;
     float square = 0.0f;
     for (int c = 0; c < C; ++c)
-        square += (mean.c[c] - predicted.c[c]) * (mean.c[c] - predicted.c[c]);
+        square += lane<C>(squares, c);
     const float share = kept_share(square * m_scale * evidence);
-    for (int c = 0; c < C; ++c)
-        value[c] = predicted.c[c] + share * (mean.c[c] - predicted.c[c]);
+    set_lanes<C>(predicted + in_all_lanes<C>(share) * off, place, m_values.get());
 }
 
 template<int C>
 void FeatureSweep<C>::run(const ParallelFor& parallel)
 {
     const SplitPair* means[C];
-    for (int c = 0; c < C; ++c) {
-        const PieceMeans& of_channel = m_source.means[std::size_t(c)];
-        means[c] = of_channel.splits.data();
-        for (Index v = 0; v < Index(of_channel.base.size()); ++v)
-            at(m_plan.base_place(v))[c] = of_channel.base[v];
-    }
+    for (int c = 0; c < C; ++c)
+        means[c] = m_source.means[std::size_t(c)].splits.data();
+    for (Index v = 0; v < Index(m_source.means[0].base.size()); ++v)
+        set_lanes<C>(lanes_of<C>([&](int c) { return m_source.means[std::size_t(c)].base[v]; }), m_plan.base_place(v),
+                     m_values.get());
     m_plan.for_splits(parallel, [&](Level first, Level last) {
         m_plan.visit_splits(first, last, [&](Level i, const PlannedSplit& k) {
+            constexpr Level kAhead = 128;  // splits
+            for (const SplitPair* of_channel : means)
+                __builtin_prefetch(of_channel + i + kAhead);
+            __builtin_prefetch(m_source.evidence.data() + i + kAhead);
             const SplitPair evidence = m_source.evidence[i];
-            Sample mean_t, mean_u;
-            for (int c = 0; c < C; ++c) {
-                mean_t.c[c] = means[c][i].t;
-                mean_u.c[c] = means[c][i].u;
-            }
-            const Sample t = predict(k.s, k.at, k.bt, k.wat, k.wbt), u = predict(k.s, k.au, k.bu, k.wau, k.wbu);
-            place(at(k.s), t, mean_t, evidence.t);
-            place(at(k.u), u, mean_u, evidence.u);
+            const Sample s = at(k.s), t = interpolate_lanes<C>(s, at(k.at), at(k.bt), k.wat, k.wbt),
+                         u = interpolate_lanes<C>(s, at(k.au), at(k.bu), k.wau, k.wbu);
+            place(k.s, t, lanes_of<C>([&](int c) { return means[c][i].t; }), evidence.t);
+            place(k.u, u, lanes_of<C>([&](int c) { return means[c][i].u; }), evidence.u);
         });
     });
 }
@@ -178,23 +169,19 @@ void smooth(const Hierarchy& hierarchy, const SmoothingSource& source, const Smo
         result = source.samples;
         return;
     }
-    Channels features, start(source.samples.size());
+    Channels features, guided;
     sweep_features(hierarchy, source, options, features);
-    for (std::size_t c = 0; c < start.size(); ++c) {
-        const std::vector<float>&from = source.samples[c], &feature = features[c];
-        start[c].resize(from.size());
-        in_batches(options.parallel, from.size(),
-                   [&](std::size_t i) { start[c][i] = feature[i] + kStartShare * (from[i] - feature[i]); });
-    }
     DiffusionOptions diffusion;
     diffusion.width = hierarchy.mesh_width();
     diffusion.height = hierarchy.mesh_height();
     diffusion.contrast = kContrastShare * std::max(options.strength, kLeastStrength);
     diffusion.steps = kSteps;
     diffusion.parallel = options.parallel;
-    Channels guided;
-    diffuse(features, diffusion, start, guided);
+    diffusion.share = kStartShare;
+    diffuse(features, diffusion, source.samples, guided);
     diffusion.steps = kOwnSteps;
+    diffusion.share = 1.0f;
+    result = std::move(features);  // its memory
     diffuse(guided, diffusion, guided, result);
 }
 

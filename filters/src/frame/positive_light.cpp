@@ -11,10 +11,6 @@ namespace pimg {
 
 namespace {
 
-/// Share of the expected light down to which values stay as they are. Chosen by eye: at 1/2 no value falls more than
-/// two stops below its surroundings, which looks like shade; at 1/8 rings round lamps are still nearly black.
-constexpr float kKnee = 0.5f;
-
 /// What is known of the piece of a vertex.
 struct Piece {
     double inverse_sum = 0.0;  ///< of 1 / sample; infinite if one is not above 0
@@ -51,11 +47,9 @@ float least_around(const ProgressiveImage::Data& data, int channel, int x, int y
 
 }  // namespace
 
-float shaded(float value, float expected)
+float raised_to_shade(float value, float expected)
 {
     const float share = value / expected;
-    if (!(share < kKnee))
-        return value;
     // A hyperbola that has slope 1 at the knee, like the line above, and tends to half of the knee.
     return expected * (0.5f * kKnee + 0.25f * kKnee * kKnee / (1.5f * kKnee - share));
 }

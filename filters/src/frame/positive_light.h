@@ -14,9 +14,19 @@
 
 namespace pimg {
 
+/// Share of the expected light down to which values stay as they are. Chosen by eye: at 1/2 no value falls more than two
+/// stops below its surroundings, which looks like shade; at 1/8 rings round lamps are still nearly black.
+constexpr float kKnee = 0.5f;
+
+/// What shaded() is below the knee.
+float raised_to_shade(float value, float expected);
+
 /// Returns `value` if it is at least half of `expected`, the light that is expected there. Lower values are raised
 /// smoothly, so that they stay above a quarter of it. `expected` is above 0.
-float shaded(float value, float expected);
+inline float shaded(float value, float expected)
+{
+    return value < kKnee * expected ? raised_to_shade(value, expected) : value;
+}
 
 /// Raises the values of those vertices of level `level` that have less light than their pieces of the picture: by
 /// shaded() with the harmonic mean of the piece's samples as `expected`. In that mean the darkest samples count most,

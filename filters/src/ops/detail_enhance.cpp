@@ -89,18 +89,18 @@ void sweep_details(const PlannedChannels& channels, const std::vector<float>& mo
     std::copy_n(channels.details.begin(), C, details);
     plan.for_splits(parallel, [&](Level first, Level last) {
         plan.visit_splits(first, last, [&](Level i, const PlannedSplit& k) {
-            const float m = more[plan.level_of(i)];
-            for (std::size_t c = 0; c < C; ++c) {
-                const auto value = [&](Index place) -> float& {
-                    return values[std::size_t(place) * C + c];
-                };
-                const Detail d { m * details[c][i].t, m * details[c][i].u };
-                const float s = value(k.s);
-                const float t = interpolate(s, value(k.at), value(k.bt), k.wat, k.wbt);
-                const float u = interpolate(s, value(k.au), value(k.bu), k.wau, k.wbu);
-                value(k.u) = u + d.u;
-                value(k.s) = t + d.t;
-            }
+            constexpr Level kAhead = 24, kDetailsAhead = 128;
+            if (i + kAhead < last)
+                __builtin_prefetch(&more[plan.level_of(i + kAhead)]);
+            for (const Detail* of_channel : details)
+                __builtin_prefetch(of_channel + i + kDetailsAhead);
+            const Lanes<C> m = in_all_lanes<C>(more[plan.level_of(i)]), s = lanes_at<C>(values, k.s);
+            const auto predicted = [&](Index a, Index b, float wa, float wb) {
+                return interpolate_lanes<C>(s, lanes_at<C>(values, a), lanes_at<C>(values, b), wa, wb);
+            };
+            const Lanes<C> t = predicted(k.at, k.bt, k.wat, k.wbt), u = predicted(k.au, k.bu, k.wau, k.wbu);
+            set_lanes<C>(t + m * lanes_of<C>([&](int c) { return details[c][i].t; }), k.s, values);
+            set_lanes<C>(u + m * lanes_of<C>([&](int c) { return details[c][i].u; }), k.u, values);
         });
     });
 }
@@ -112,9 +112,9 @@ void added_details(ProgressiveImage::Data& data, const PlannedChannels& channels
 {
     const SweepPlan& plan = *channels.plan;
     const Hierarchy& hierarchy = data.hierarchy;
-    Scratch values(data, plan.places() * C);
+    Scratch values(data, plan.places() * kLanes<C>);
     for (Index v = 0; v < hierarchy.base_vertices(); ++v)
-        std::fill_n((*values).begin() + std::ptrdiff_t(plan.base_place(v)) * C, C, 0.0f);
+        set_lanes<C>(in_all_lanes<C>(0.0f), plan.base_place(v), (*values).data());
     sweep_details<C>(channels, more, parallel, (*values).data());
     float* samples[C];
     for (std::size_t c = 0; c < C; ++c) {
@@ -122,6 +122,23 @@ void added_details(ProgressiveImage::Data& data, const PlannedChannels& channels
         samples[c] = results[c].data();
     }
     plan.scatter_channels<C>(hierarchy, (*values).data(), samples, parallel);
+}
+
+/// Adds the light of the source to what is added to one channel, if that is not the result already. What is left is at
+/// least a quarter of the light of the source at every pixel of a scene, however much its details are amplified.
+void add_source(const ProgressiveImage::Data& data, int channel, int exponent, const ParallelFor& parallel,
+                std::vector<float>& samples, bool is_result)
+{
+    const float* source = static_cast<const float*>(data.source.localpixels()) + channel;
+    const std::size_t stride = std::size_t(data.source.nchannels());
+    const bool shades = is_scene_linear(data);
+    in_batches(parallel, samples.size(), [&](std::size_t i) {
+        const float light = source[i * stride];
+        float sample = exponent != 0 ? std::ldexp(samples[i], exponent) : samples[i];
+        if (!is_result)
+            sample += light;
+        samples[i] = shades && light > 0.0f ? shaded(sample, light) : sample;
+    });
 }
 
 /// The picture with its details amplified. What that adds is added to the picture rather than synthesised with it, so that
@@ -141,14 +158,7 @@ void enhance_by(ProgressiveImage::Data& data, const PlannedChannels& planned, co
         if (more.back() != 0.0f && !residual.empty())
             in_batches(parallel, residual.size(), [&](std::size_t i) { results[c][i] += more.back() * residual[i]; });
         crop_to_picture(data.hierarchy, results[c]);
-        const float* source = static_cast<const float*>(data.source.localpixels()) + data.colour.channel(int(c));
-        const std::size_t stride = std::size_t(data.source.nchannels());
-        in_batches(parallel, results[c].size(), [&](std::size_t i) {
-            float& sample = results[c][i];
-            if (channels.exponent != 0)
-                sample = std::ldexp(sample, channels.exponent);
-            sample += source[i * stride];
-        });
+        add_source(data, data.colour.channel(int(c)), channels.exponent, parallel, results[c], false);
     }
 }
 
@@ -255,20 +265,9 @@ bool by_strength(ProgressiveImage::Data& data, const DetailEnhanceOptions& optio
     if (!calm_pixels(data, options, smoothing, parallel, results, error))
         return false;
     to_picture(data.hierarchy, smoothing, results);
+    for (std::size_t c = 0; c < results.size(); ++c)
+        add_source(data, data.colour.channel(int(c)), 0, parallel, results[c], true);
     return true;
-}
-
-/// Keeps at least a quarter of the light of the source at every pixel, however much its details are amplified.
-void shade(const ProgressiveImage::Data& data, const ParallelFor& parallel, Channels& results)
-{
-    const std::size_t stride = std::size_t(data.source.nchannels());
-    for (std::size_t c = 0; c < results.size(); ++c) {
-        const float* source = static_cast<const float*>(data.source.localpixels()) + data.colour.channel(int(c));
-        in_batches(parallel, results[c].size(), [&](std::size_t i) {
-            if (source[i * stride] > 0.0f)
-                results[c][i] = shaded(results[c][i], source[i * stride]);
-        });
-    }
 }
 
 }  // namespace
@@ -281,8 +280,6 @@ bool on_hierarchy::detail_enhance(ImageBuf& dst, const ProgressiveImage& src, co
         const bool by_contrast = options.strength >= 0.0f || options.noise >= 0.0f || options.log;
         if (!(by_contrast ? by_strength : by_position)(data, options, parallel, result.channels, error))
             return false;
-        if (is_scene_linear(data))
-            shade(data, parallel, result.channels);
         bound_below(data, parallel, result.channels);
         return true;
     };

@@ -18,6 +18,8 @@ struct DiffusionOptions {
     float contrast = 0.1f;      ///< difference across which a quarter of the flow is left; > 0, in units of the guide
     int steps = 7;              ///< 1 or more; n steps reach as far as a Gaussian of variance (n^2 + n) / 6, in pixels
     ParallelFor parallel;       ///< the result does not depend on it
+    /// Below 1, what diffuses is guide + share (picture - guide); picture and guide then have as many channels.
+    float share = 1.0f;
 };
 
 /// Diffuses every channel of `picture`, which may be the guide itself; the conductances are those of the guide as

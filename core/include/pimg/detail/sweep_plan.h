@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <pimg/bands.h>
+#include <pimg/detail/lanes.h>
 
 namespace pimg {
 
@@ -69,7 +70,7 @@ public:
     void scatter(const Hierarchy& hierarchy, const float* values, float* samples,
                  const ParallelFor& parallel = {}) const;
 
-    /// The same for values of C channels, those of a place side by side; channel c goes to samples[c].
+    /// The same for values of C channels in Lanes; channel c goes to samples[c].
     template<int C>
     void scatter_channels(const Hierarchy& hierarchy, const float* values, float* const* samples,
                           const ParallelFor& parallel = {}) const;
@@ -158,7 +159,7 @@ void SweepPlan::scatter_channels(const Hierarchy& hierarchy, const float* values
     for_runs(hierarchy, parallel, [&](std::size_t place, std::size_t pixel, std::size_t count) {
         for (std::size_t i = 0; i < count; ++i)
             for (int c = 0; c < C; ++c)
-                samples[c][pixel + i] = values[(place + i) * C + std::size_t(c)];
+                samples[c][pixel + i] = values[(place + i) * std::size_t(kLanes<C>) + std::size_t(c)];
     });
     for (int c = 0; c < C; ++c)
         interpolate_between(hierarchy, samples[c], parallel);
