@@ -2,11 +2,19 @@
 #include "instance.h"
 
 #include <algorithm>
+#include <climits>
 #include <cmath>
 
 #include <pimg/detail/format.h>
 
 namespace pimg_ofx {
+
+namespace {
+
+/// Hosts say INT_MAX, or numbers near it, for regions without an end; no picture has half as many pixels in a row.
+constexpr double kInfinite = double(INT_MAX / 2);
+
+}  // namespace
 
 Instance::Instance(const Host& host, const Effect& effect, OfxImageEffectHandle handle)
     : m_host(host),
@@ -40,8 +48,18 @@ Properties Instance::of_clip(OfxImageClipHandle clip) const
 
 bool Instance::source_region(OfxTime time, OfxRectD& region) const
 {
-    return m_source != nullptr && m_host.effects().clipGetRegionOfDefinition(m_source, time, &region) == kOfxStatOK
-        && region.x1 < region.x2 && region.y1 < region.y2;
+    if (m_source == nullptr || m_host.effects().clipGetRegionOfDefinition(m_source, time, &region) != kOfxStatOK)
+        return false;
+    // Generators are defined everywhere; what is seen of them is the project's window.
+    const Properties instance = m_host.of_effect(m_handle);
+    const auto bound = [&](double& low, double& high, int axis) {
+        const double size = instance.real(kOfxImageEffectPropProjectSize, axis);
+        const double offset = instance.real(kOfxImageEffectPropProjectOffset, axis);
+        low = low > -kInfinite ? low : offset;
+        high = high < kInfinite ? high : offset + size;
+        return low < high && high - low < kInfinite;
+    };
+    return bound(region.x1, region.x2, 0) && bound(region.y1, region.y2, 1);
 }
 
 OfxParamHandle Instance::parameter(const std::string& name) const

@@ -26,7 +26,8 @@ public:
     OfxImageClipHandle output_clip() const { return m_output; }
     Properties of_clip(OfxImageClipHandle clip) const;
 
-    /// The region of definition of the source at `time`, in canonical coordinates; false if there is no source.
+    /// The region of definition of the source at `time`, in canonical coordinates, or what the project's window holds of a
+    /// region without an end. False if there is no source.
     bool source_region(OfxTime time, OfxRectD& region) const;
 
     /// The options of the owner that are given, at `time`. Lengths in pixels are multiplied by `scale`.

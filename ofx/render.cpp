@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render.h"
 
+#include <cmath>
+
 #include <pimg/detail/format.h>
 #include <pimg/detail/retuning.h>
 #include <pimg/detail/stop.h>
@@ -32,7 +34,11 @@ Request request_of(const Properties& in)
 {
     Request request;
     request.time = in.real(kOfxPropTime);
-    request.scale = in.real(kOfxImageEffectPropRenderScale, 0, 1.0);
+    // Lengths follow the area where a proxy is not reduced equally in both directions.
+    const double across = in.real(kOfxImageEffectPropRenderScale, 0, 1.0),
+                 down = in.real(kOfxImageEffectPropRenderScale, 1, across);
+    const double scale = across == down ? across : std::sqrt(across * down);
+    request.scale = scale > 0.0 && std::isfinite(scale) ? scale : 1.0;
     request.placement.window = in.rect(kOfxImageEffectPropRenderWindow);
     return request;
 }

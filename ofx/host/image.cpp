@@ -106,9 +106,17 @@ OIIO::ImageBuf picture_of(const Image& image, int threads)
         const int y = int(row);
         std::memcpy(picture.pixeladdr(0, y), image.address(box.x1, box.y2 - 1 - y), row_bytes);
     });
-    if (image.is_unpremultiplied())
-        pimg::run_without_foreign_tasks([&] { OIIO::ImageBufAlgo::premult(picture, picture); });
-    return picture;
+    if (!image.is_unpremultiplied())
+        return picture;
+    OIIO::ImageBuf associated;
+    pimg::run_without_foreign_tasks([&] {
+        // Eight bits would not be enough to divide by a small alpha afterwards.
+        const bool small = spec.format == TypeDesc::UINT8;
+        if (small)
+            associated.copy(picture, TypeDesc::UINT16);
+        OIIO::ImageBufAlgo::premult(associated, small ? associated : picture);
+    });
+    return associated;
 }
 
 OIIO::ImageBuf canvas_of(const Image& output, const OfxRectI& picture)

@@ -2,6 +2,7 @@
 #include "commands.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <random>
@@ -59,6 +60,9 @@ Footage footage_of(const Words& words)
     footage.scale = std::atof(words.option("scale", "1").c_str());
     footage.left = words.number("left", 0);
     footage.bottom = words.number("bottom", 0);
+    footage.aspect = std::atof(words.option("aspect", "1").c_str());
+    footage.top_down = words.number("top-down", 0) != 0;
+    footage.without_end = words.number("without-end", 0) != 0;
     const std::string depth = words.option("depth", "float"), components = words.option("components", "rgba");
     footage.depth = depth == "byte" ? kOfxBitDepthByte
         : depth == "short"          ? kOfxBitDepthShort
@@ -107,6 +111,14 @@ void print_parameters(const Effect& effect)
     }
 }
 
+/// A number between two others; a whole one if they are.
+std::string between(const std::string& from, const std::string& to, double share)
+{
+    const double number = (1.0 - share) * std::atof(from.c_str()) + share * std::atof(to.c_str());
+    const bool whole = to.find('.') == to.npos && std::atof(from.c_str()) == std::atoi(from.c_str());
+    return whole ? std::to_string(std::lround(number)) : std::to_string(number);
+}
+
 /// A command that has an instance.
 class Session {
 public:
@@ -151,8 +163,7 @@ public:
             const std::size_t dots = value.find("..");
             std::string now = value;
             if (dots != value.npos)
-                now = std::to_string((1.0 - share) * std::atof(value.c_str())
-                                     + share * std::atof(value.c_str() + dots + 2));
+                now = between(value, value.substr(dots + 2), share);
             if (!set_parameter(m_instance->effect(), name, now, error))
                 return false;
         }

@@ -2,6 +2,7 @@
 #include "effect.h"
 
 #include <algorithm>
+#include <climits>
 #include <cmath>
 #include <cstring>
 
@@ -62,7 +63,7 @@ void connect(Clip& clip, const Footage* footage)
     set.define(kOfxImageEffectPropComponents, 1, { footage != nullptr ? f.components : Text(kOfxImageComponentNone) });
     set.define(kOfxImageEffectPropPixelDepth, 1, { f.depth });
     set.define(kOfxImageEffectPropPreMultiplication, 1, { f.premultiplication });
-    set.define(kOfxImagePropPixelAspectRatio, 1, { 1.0 }).define(kOfxImageEffectPropFrameRate, 1, { 24.0 });
+    set.define(kOfxImagePropPixelAspectRatio, 1, { f.aspect }).define(kOfxImageEffectPropFrameRate, 1, { 24.0 });
     set.define(kOfxImageEffectPropFrameRange, 2, { 1.0, double(f.frames.size()) });
     set.define(kOfxImageClipPropFieldOrder, 1, { f.field }).define(kOfxImageClipPropContinuousSamples, 1, { 0 });
     set.define(kOfxImageClipPropColourspace, 1, { Text() });
@@ -89,27 +90,36 @@ OfxRectI Footage::pixels(OfxTime time) const
     return { scaled(left), scaled(bottom), scaled(left) + scaled(spec.width), scaled(bottom) + scaled(spec.height) };
 }
 
-HostImage::HostImage(const Footage& footage, const OfxRectI& pixels, const OfxRectI& defined) : bounds(pixels)
+OfxRectD Footage::region(OfxTime time) const
+{
+    const OIIO::ImageSpec& spec = at(time).spec();
+    return { left * aspect, double(bottom), (left + spec.width) * aspect, double(bottom + spec.height) };
+}
+
+HostImage::HostImage(const Footage& footage, const OfxRectI& pixels, const OfxRectI& defined)
+    : bounds(pixels),
+      top_down(footage.top_down)
 {
     pixel_bytes = std::size_t(channels_of(footage.components)) * type_of(footage.depth).size();
     row_bytes = std::size_t(pixels.x2 - pixels.x1) * pixel_bytes + kPadding;
     memory.assign(row_bytes * std::size_t(pixels.y2 - pixels.y1), kUntouched);
     properties.define(kOfxPropType, 1, { Text(kOfxTypeImage) });
-    properties.define(kOfxImagePropData, 1, { static_cast<void*>(memory.data()) });
+    properties.define(kOfxImagePropData, 1, { static_cast<void*>(address(pixels.x1, pixels.y1)) });
     properties.define(kOfxImagePropBounds, 4, four(pixels)).define(kOfxImagePropRegionOfDefinition, 4, four(defined));
-    properties.define(kOfxImagePropRowBytes, 1, { int(row_bytes) });
+    properties.define(kOfxImagePropRowBytes, 1, { top_down ? -int(row_bytes) : int(row_bytes) });
     properties.define(kOfxImageEffectPropComponents, 1, { footage.components });
     properties.define(kOfxImageEffectPropPixelDepth, 1, { footage.depth });
     properties.define(kOfxImageEffectPropPreMultiplication, 1, { footage.premultiplication });
     properties.define(kOfxImageEffectPropRenderScale, 2, { footage.scale, footage.scale });
-    properties.define(kOfxImagePropPixelAspectRatio, 1, { 1.0 });
+    properties.define(kOfxImagePropPixelAspectRatio, 1, { footage.aspect });
     properties.define(kOfxImagePropField, 1, { footage.field });
     properties.define(kOfxImagePropUniqueIdentifier, 1, { Text() });
 }
 
 unsigned char* HostImage::address(int x, int y)
 {
-    return memory.data() + std::size_t(y - bounds.y1) * row_bytes + std::size_t(x - bounds.x1) * pixel_bytes;
+    const int row = top_down ? bounds.y2 - 1 - y : y - bounds.y1;
+    return memory.data() + std::size_t(row) * row_bytes + std::size_t(x - bounds.x1) * pixel_bytes;
 }
 
 bool HostImage::is_intact() const
@@ -139,7 +149,8 @@ std::shared_ptr<HostImage> image_of(const Footage& footage, OfxTime time)
         }
         scaled = OIIO::ImageBufAlgo::channels(scaled, channels, order, values);
     }
-    auto image = std::make_shared<HostImage>(footage, box, box);
+    const OfxRectI everywhere { INT_MIN, INT_MIN, INT_MAX, INT_MAX };
+    auto image = std::make_shared<HostImage>(footage, box, footage.without_end ? everywhere : box);
     for (int y = box.y1; y < box.y2; ++y) {
         const int row = box.y2 - 1 - y;
         scaled.get_pixels(OIIO::ROI(0, box.x2 - box.x1, row, row + 1, 0, 1, 0, channels), type_of(footage.depth),
@@ -216,6 +227,9 @@ void Effect::make_instance_of(const Effect& descriptor, const std::string& conte
     properties.define(kOfxPropType, 1, { Text(kOfxTypeImageEffectInstance) });
     properties.define(kOfxImageEffectPropContext, 1, { context });
     properties.define(kOfxPropInstanceData, 1, { static_cast<void*>(nullptr) });
+    const OfxRectD window = footage != nullptr ? footage->region(1.0) : OfxRectD {};
+    properties.define(kOfxImageEffectPropProjectOffset, 2, { window.x1, window.y1 });
+    properties.define(kOfxImageEffectPropProjectSize, 2, { window.x2 - window.x1, window.y2 - window.y1 });
     parameters.copy_from(descriptor.parameters);
     clips = descriptor.clips;
     for (auto& [name, clip] : clips)
@@ -288,9 +302,9 @@ OfxStatus region_of_definition(OfxImageClipHandle handle, OfxTime time, OfxRectD
     const Clip& clip = Clip::of(handle);
     if (clip.footage == nullptr)
         return kOfxStatFailed;
-    const OIIO::ImageSpec& spec = clip.footage->at(time).spec();
-    const double x = clip.footage->left, y = clip.footage->bottom;
-    *bounds = { x, y, x + spec.width, y + spec.height };
+    *bounds = clip.footage->region(time);
+    if (clip.footage->without_end)
+        *bounds = { double(INT_MIN), double(INT_MIN), double(INT_MAX), double(INT_MAX) };
     return kOfxStatOK;
 }
 

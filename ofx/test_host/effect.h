@@ -23,11 +23,15 @@ struct Footage {
     std::vector<OIIO::ImageBuf> frames;  ///< float, top row first, at full size
     double scale = 1.0;                  ///< of proxies
     int left = 0, bottom = 0;            ///< where the picture begins, in pixels of full size
+    double aspect = 1.0;                 ///< width of a pixel over its height
+    bool top_down = false;               ///< in memory
+    bool without_end = false;            ///< the clip is defined everywhere; the picture is the project's window
     std::string components = kOfxImageComponentRGBA, depth = kOfxBitDepthFloat;
     std::string premultiplication = kOfxImagePreMultiplied, field = kOfxImageFieldNone;
 
     const OIIO::ImageBuf& at(OfxTime time) const;
     OfxRectI pixels(OfxTime time) const;  ///< at the scale
+    OfxRectD region(OfxTime time) const;  ///< the same in canonical coordinates
 
     /// The frame as an image. It is made once, as a host has its images in memory.
     std::shared_ptr<HostImage> image(OfxTime time) const;
@@ -48,6 +52,7 @@ struct HostImage {
     std::vector<unsigned char> memory;
     OfxRectI bounds {};
     std::size_t row_bytes = 0, pixel_bytes = 0;
+    bool top_down = false;
 
     HostImage(const Footage& footage, const OfxRectI& pixels, const OfxRectI& defined);
     unsigned char* address(int x, int y);

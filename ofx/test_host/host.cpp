@@ -215,21 +215,23 @@ OfxStatus Instance::regions(const RenderOptions& options, const OfxRectI& window
     const double scale = m_footage->scale;
     PropertySet in, defined, wanted;
     in.define(kOfxPropTime, 1, { options.time }).define(kOfxImageEffectPropRenderScale, 2, { scale, scale });
+    const double across = m_footage->aspect / scale;
     in.define(kOfxImageEffectPropRegionOfInterest, 4,
-              { window.x1 / scale, window.y1 / scale, window.x2 / scale, window.y2 / scale });
+              { window.x1 * across, window.y1 / scale, window.x2 * across, window.y2 / scale });
     defined.define(kOfxImageEffectPropRegionOfDefinition, 4, { 0.0, 0.0, 0.0, 0.0 });
     const OfxStatus status = action(kOfxImageEffectActionGetRegionOfDefinition, &in, &defined);
     if (!is_fine(status))
         return status;
     if (status == kOfxStatOK
-        && std::lround(defined.real(kOfxImageEffectPropRegionOfDefinition, 2) * scale) != long(whole.x2))
+        && std::lround(defined.real(kOfxImageEffectPropRegionOfDefinition, 2) / across) != long(whole.x2))
         violation("the region of definition is not the source's");
     const std::string name = kClipRegionOfInterest + std::string(kOfxImageEffectSimpleSourceClipName);
     wanted.define(name, 4, { 0.0, 0.0, 0.0, 0.0 });
     const OfxStatus second = action(kOfxImageEffectActionGetRegionsOfInterest, &in, &wanted);
     if (m_effect.clips.at(kOfxImageEffectSimpleSourceClipName).footage == nullptr)
         return second;
-    if (second != kOfxStatOK || std::lround(wanted.real(name, 2) * scale) != long(whole.x2))
+    if (second != kOfxStatOK || std::lround(wanted.real(name, 2) / across) != long(whole.x2)
+        || std::lround(wanted.real(name, 3) * scale) != long(whole.y2))
         violation("the whole source is not asked for");
     return second;
 }

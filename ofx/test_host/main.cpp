@@ -18,7 +18,8 @@ constexpr char kUsage[] = R"(usage: ofx_test_host BUNDLE COMMAND ...
       --tile N                    in tiles of N pixels; --threads N of them at a time
       --scale S                   at that render scale
       --depth float|half|short|byte    --components rgba|rgb|alpha    --straight 1: not premultiplied
-      --left X --bottom Y         where the picture lies
+      --left X --bottom Y         where the picture lies;  --aspect A: the shape of its pixels
+      --top-down 1                its rows in memory;  --without-end 1: the clip is defined everywhere
       --field none|lower|upper    --context filter|general    --manages 1: the host manages colours
       --config FILE --space NAME  it does so by OpenColorIO, and its clips are in that space
       --repeat N                  N times, and says how long each took; NAME=A..B changes from A to B meanwhile

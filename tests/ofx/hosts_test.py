@@ -188,6 +188,17 @@ class Hosts(ofx_host.HostTest):
         said = self.host("render", "paint", "in.exr", "out.exr", "brush=nothing.png", status=1)
         self.assertIn("nothing.png", said)
 
+    def test_numbers_that_are_none(self):
+        for value in ("nan", "inf", "-inf", "1e300"):
+            for effect, name in (("hdr_compress", "beta"), ("detail_enhance", "gain"), ("paint", "min"), ("ink", "width")):
+                done = subprocess.run([ofx_host.HOST, ofx_host.BUNDLE, "render", effect, "in.exr", "out.exr", f"{name}={value}"],
+                                      capture_output=True, text=True, timeout=100, check=False)
+                self.assertIn(done.returncode, (0, 1), done.stderr)
+                if done.returncode == 1:
+                    self.assertIn(name, done.stderr)
+                else:  # the nearer end of the range
+                    self.assertTrue(np.isfinite(pictures.read("out.exr")).all(), (effect, name, value))
+
     def test_hosts_that_do_everything_wrong(self):
         for effect in ("hdr_compress", "segment"):
             self.host("misuse", "in.exr", "--effect", effect)
