@@ -29,7 +29,8 @@ constexpr char kUsage[] = R"(usage: ofx_test_host BUNDLE COMMAND ...
   stops EFFECT IN [NAME=VALUE...]
                                   stops renders at --moments 30 moments each, and says how long they took to
                                   end; --verbose 1: for each moment
-  stress IN...                    --threads 8 --renders 100 --instances 4: random renders of all effects
+  stress IN...                    --threads 8 --renders 100 --instances 4: random renders of all effects, each on
+                                  --cpus 2 threads of the pool
   misuse IN                       wrong clips, handles and actions, missing suites: each must be refused politely
 )";
 

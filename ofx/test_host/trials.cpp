@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Trials for a plug-in: many threads, and a host that does everything wrong.
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <random>
@@ -51,7 +52,9 @@ bool set_stage(const std::string& bundle, const Words& words, Stage& stage, std:
         }
         stage.footage.frames.push_back(frame);
     }
-    stage.host = std::make_unique<Host>(HostOptions());
+    HostOptions options;
+    options.threads = unsigned(std::max(1, words.number("cpus", 2)));
+    stage.host = std::make_unique<Host>(options);
     if (stage.footage.frames.empty() || !stage.host->load(bundle, error))
         return false;
     std::mt19937 random(1);

@@ -173,14 +173,15 @@ class Hosts(ofx_host.HostTest):
         self.assertFalse(np.array_equal(pictures.read("out.exr"), self.tool("hdr_compress", source="large.exr")))
 
     def test_every_effect_stops_soon(self):
-        """At random moments of a build and of a filter. 50 ms are the aim; other tests may run beside this one."""
+        """At random moments of a build and of a filter. 50 ms are the aim; where other programs want the processors, only
+        the middle one of several moments says something."""
         ofx_host.write("large.exr", ofx_host.scene(400, 300))
         for line in self.host("list").splitlines():
             effect = line.split()[0]
-            said = self.host("stops", effect, "large.exr", "--moments", 8)
-            times = re.findall(r"stopped after \S+ ms \(median\), \S+ \(9 of 10\), (\S+) \(most\)", said)
+            said = self.host("stops", effect, "large.exr", "--moments", 9)
+            times = re.findall(r"stopped after (\S+) ms \(median\)", said)
             self.assertEqual(len(times), 2, said)
-            self.assertLess(max(map(float, times)), 200, effect + "\n" + said)
+            self.assertLess(max(map(float, times)), 100, effect + "\n" + said)
 
     def test_errors_are_messages(self):
         said = self.host("render", "feature_lowpass", "in.exr", "out.exr", "strength=1", "noise=1", status=1)
