@@ -26,9 +26,10 @@ Parameter parameter(const pimg::OptionInfo& option, Owner owner)
 }
 
 /// Options that write files are not offered: a host renders in any order, on many threads, and as often as it likes.
+/// Nor has an image of OpenFX other layers than its picture.
 bool is_offered(const pimg::OptionInfo& option)
 {
-    return option.file != pimg::FileUse::written;
+    return option.file != pimg::FileUse::written && option.key != std::string("aovs");
 }
 
 Effect effect_of(const pimg::Filter& filter)
