@@ -75,6 +75,30 @@ class Encoded(pictures.ToolTest):
         self.ok("in.png", "--tocolorspace", "linear", "-o", "out.hdr")
 
 
+class Profiles(pictures.ToolTest):
+    """ICC profiles that are not those of the pixels written: libpng would refuse the file."""
+
+    def test_they_are_left_behind(self):
+        for space, channels, command in (
+            (b"CMYK", 3, "--feature-lowpass"),
+            (b"Lab ", 3, "--paint"),
+            (b"RGB ", 3, "--segment:regions=9"),
+            (b"RGB ", 1, "--level:fraction=0.1"),
+        ):
+            profile = bytearray(132)
+            profile[0:4] = (132).to_bytes(4, "big")
+            profile[8:12], profile[12:16], profile[16:20], profile[20:24] = b"\2\x40\0\0", b"mntr", space, b"XYZ "
+            profile[36:40], profile[68:80] = b"acsp", bytes.fromhex("0000f6d6000100000000d32d")  # its illuminant is D50
+            spec = oiio.ImageSpec(64, 48, channels, "uint8")
+            spec.attribute("ICCProfile", oiio.TypeDesc(f"uint8[{len(profile)}]"), np.frombuffer(bytes(profile), np.uint8))
+            out = oiio.ImageOutput.create("in.tif")
+            self.assertTrue(out.open("in.tif", spec), out.geterror())
+            out.write_image(np.ascontiguousarray(pictures.scene(64, 48, channels), np.float32))
+            out.close()
+            self.ok("in.tif", command, "-o", "out.png")
+            self.assertEqual(read("out.png").shape[:2], (48, 64))
+
+
 class Parts(pictures.ToolTest):
     """A render with depth, two views and IDs, each a part of its own."""
 

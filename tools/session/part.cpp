@@ -65,6 +65,17 @@ ROI writable_window(const ImageBuf& pixels, const ImageOutput& out)
     return window;
 }
 
+/// Whether an ICC profile is one of pictures with so many channels of colour. Others are left behind where pixels become
+/// RGB or numbers: those of a CMYK photograph, or an RGB profile beside labels, which libpng refuses.
+bool is_profile_for(const OIIO::ParamValue& profile, int channels)
+{
+    constexpr std::size_t kSpaceAt = 16;  // of the header: the signature of the data's colour space
+    if (std::size_t(profile.datasize()) < kSpaceAt + 4)
+        return false;
+    const std::string space(static_cast<const char*>(profile.data()) + kSpaceAt, 4);
+    return space == (channels < 3 ? "GRAY" : "RGB ");
+}
+
 /// The header of the file: the metadata of the pixels, stored as the types wanted.
 ImageSpec file_spec(const ImageBuf& pixels, const PixelTypes& types, const ImageOutput& out)
 {
@@ -76,6 +87,9 @@ ImageSpec file_spec(const ImageBuf& pixels, const PixelTypes& types, const Image
         spec.erase_attribute("textureformat");
     else
         spec.attribute("openexr:levelmode", 0);
+    const OIIO::ParamValue* profile = spec.find_attribute("ICCProfile");
+    if (profile != nullptr && !is_profile_for(*profile, spec.nchannels))
+        spec.erase_attribute("ICCProfile.*");  // and what it says of itself
     spec.tile_width = spec.tile_height = spec.tile_depth = 0;
     // Level 6, OpenImageIO's default, makes files 2 to 3 % smaller but takes three times as long, which was a sixth of
     // the time of the whole command.
