@@ -143,9 +143,9 @@ struct FeatureLowpassOptions : StrengthOptions {
 /// Amplifies the details of a range of splits (section 4.1) or, with strength, noise or log, what feature_lowpass() of that
 /// strength removes.
 struct DetailEnhanceOptions : StrengthOptions {
-    float gain = 2.0f;  ///< factor on the details; 1 changes nothing
-    float from = 0.1f;  ///< first split that is amplified: a share of all splits or, above 1, their number
-    float to = 1.0f;    ///< end of the range, in the same way
+    float gain = 2.0f;     ///< factor on the details; 1 changes nothing
+    float from = 0.1f;     ///< first split that is amplified: a share of all splits or, above 1, their number
+    float to = 1.0f;       ///< end of the range, in the same way
     float denoise = 1.0f;  ///< details within this many times the noise are not amplified; 0: none is noise
     /// The gain as a function of the position among the splits, instead of gain, from and to: pairs of position and gain,
     /// such as "0:1,0.1:1,0.2:3,1:3". The gain is linear between these positions and constant outside. Positions are as
