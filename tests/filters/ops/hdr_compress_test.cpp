@@ -74,6 +74,42 @@ TEST(HdrCompress, ScaleOfTheInputDoesNotMatter)
     }
 }
 
+/// The scene between two borders that are together as large; value < 0: sensor noise.
+ImageBuf bordered(float value)
+{
+    const ImageBuf scene = hdr_scene(256, 256);
+    ImageBuf dst = picture(512, 256, 3, OIIO::TypeFloat);
+    for (int y = 0; y < 256; ++y)
+        for (int x = 0; x < 512; ++x) {
+            float rgb[3] = { value, value, value };
+            for (std::uint32_t c = 0; value < 0.0f && c < 3; ++c)
+                rgb[c] = 1e-4f * noise(std::uint32_t(x), std::uint32_t(y), c);
+            if (x >= 128 && x < 384)
+                scene.getpixel(scene.xbegin() + x - 128, scene.ybegin() + y, rgb);
+            dst.setpixel(x, y, rgb);
+        }
+    return dst;
+}
+
+/// log2 of the median luminance of the columns from `begin` on that show the scene.
+float median_stops(const ImageBuf& dst, int begin)
+{
+    std::vector<float> stops;
+    for (int y = dst.ybegin(); y < dst.ybegin() + 256; ++y)
+        for (int x = begin; x < begin + 256; ++x)
+            stops.push_back(std::log2(dst.getchannel(x, y, 0, 1)));
+    std::nth_element(stops.begin(), stops.begin() + 32768, stops.end());
+    return stops[32768];
+}
+
+TEST(HdrCompress, SurroundingsDoNotMoveTheExposure)
+{
+    const ImageBuf alone = compressed(hdr_scene(256, 256));
+    const float expected = median_stops(alone, alone.xbegin());
+    for (const float value : { 0.0f, 1.0f, 20.0f, -1.0f })
+        EXPECT_NEAR(median_stops(compressed(bordered(value)), 128), expected, 0.3f) << value;
+}
+
 /// Half as large, by means of light.
 ImageBuf reduced(const ImageBuf& src)
 {
