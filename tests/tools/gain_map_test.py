@@ -58,6 +58,16 @@ class GainMapFiles(unittest.TestCase):
         self.assertGreater(wanted.max(), 1.5)
         self.assertLess(np.percentile(abs(luminance(back) - luminance(wanted)), 95), 0.1)
 
+    def test_windows_and_names(self):
+        buf = oiio.ImageBuf("in.exr")
+        buf.specmod().full_width, buf.specmod().full_height = WIDTH + 40, HEIGHT - 20
+        buf.specmod().full_x = -10
+        buf.write("overscan.exr")
+        self.done("overscan.exr", "--hdr-compress", "-o", "base.jpg", "-o", "OUT.JPG:gainmap=1")
+        self.assertTrue((pixels("base.jpg") == pixels("OUT.JPG")).all())
+        self.done("OUT.JPG", "--gainmap", "-o", "back.exr")
+        self.assertEqual(pixels("back.exr").shape, pixels("base.jpg").shape)
+
     def test_size(self):
         self.done("in.exr", "--hdr-compress", "-o", "base.jpg", "-o:gainmap=1:peak=600:channels=1", "out.jpeg")
         self.assertLess(os.path.getsize("out.jpeg"), 1.35 * os.path.getsize("base.jpg") + 2048)
@@ -74,6 +84,9 @@ class GainMapFiles(unittest.TestCase):
         self.refused("channels", "in.exr", "--hdr-compress", "-o", "base.jpg:gainmap=1:channels=2")
         self.refused("scale", "in.exr", "--hdr-compress", "-o", "base.jpg:gainmap=1:scale=3")
         self.refused("gainmap", "in.exr", "--hdr-compress", "-o", "out.png:gainmap=1")
+        self.refused("a gain has a sign", "in.exr", "--hdr-compress:output=gain", "-o", "out.png")
+        self.refused("a gain has a sign", "in.exr", "--hdr-compress:output=gain", "-d", "uint16", "-o", "out.tif")
+        self.refused("peak", "in.exr", "--hdr-compress", "-o", "base.jpg:gainmap=1:peak=5000")
         self.refused("no gain map", "base.jpg", "--gainmap", "-o", "back.exr")
         self.assertEqual(open("base.jpg", "rb").read(), before)
         self.assertEqual(sorted(os.listdir(".")), ["base.jpg", "in.exr"])

@@ -243,6 +243,7 @@ bool layer(Session& session, const Words& words)
     hierarchy->options = session.top().hierarchy->options;
     hierarchy->options.layer = words[0];
     session.top().hierarchy = hierarchy;
+    session.top().rendition = {};  // of another layer
     return true;
 }
 

@@ -45,7 +45,7 @@ using pimg::format;
 bool take_keys(std::string& filename, Call& call, std::string& error)
 {
     for (const char* extension : { ".pimg:", ".jpg:", ".jpeg:" }) {
-        const std::size_t found = filename.rfind(extension);
+        const std::size_t found = OIIO::Strutil::lower(filename).rfind(extension);
         if (found == std::string::npos)
             continue;
         const std::size_t colon = filename.find(':', found);
@@ -68,8 +68,9 @@ bool parse_output_keys(const std::string& filename, const Call& call, OutputKeys
     const OutputKeys defaults = keys;
     const std::vector<pimg::OptionInfo> of_jpeg = pimg::describe_options<GainMapRequest>();
     for (const auto& [key, value] : call.keys) {
-        const bool is_jpeg_key = std::any_of(of_jpeg.begin(), of_jpeg.end(),
-                                             [&name = key](const auto& info) { return info.is_called(name); });
+        const bool is_jpeg_key = has_jpeg_extension(filename)
+            || std::any_of(of_jpeg.begin(), of_jpeg.end(),
+                           [&name = key](const auto& info) { return info.is_called(name); });
         if (!(is_jpeg_key ? pimg::set_option(keys.jpeg, key, value, error)
                           : pimg::set_option(keys.pimg, key, value, error)))
             return false;
@@ -293,8 +294,8 @@ CommandGroup input_group()
             setting("--part", "PART",
                     "which part of the files after it is the picture: a number from 0, a name, or all, to keep them",
                     part),
-            { "--gainmap", "", "takes the HDR rendition of a JPEG file with a gain map, instead of its base", 1, 0,
-              nullptr, gainmap },
+            { "--gainmap", "", "takes the HDR rendition of the JPEG file before it, which has a gain map, not its base",
+              1, 0, nullptr, gainmap },
             setting("--iconfig", "NAME VALUE",
                     "a hint for readers of the files after it: oiio:UnassociatedAlpha 1 keeps colours under alpha 0",
                     iconfig, pimg::describe_options<HintOptions>),

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "session/gain_map_file.h"
 
+#include <algorithm>
+
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 
 #include <pimg/detail/format.h>
@@ -15,10 +18,11 @@ const std::vector<Option<pimgtool::GainMapRequest>>& option_table<pimgtool::Gain
     static const std::vector<Option<T>> table = {
         { &T::gainmap,
           { "gainmap", 0, 0, "", "", "JPEG: the result of --hdr-compress, with a gain map for HDR displays" } },
-        { &T::peak, { "peak", 203, 10000, "nits", "", "with gainmap: brightest of the HDR rendition" } },
+        { &T::peak, { "peak", 203, 4000, "nits", "", "with gainmap: brightest of the HDR rendition" } },
         { &T::scale,
-          { "scale", 1, 4, "pixels", "", "with gainmap: side of the square that a sample of the map is for" } },
-        { &T::channels, { "channels", 1, 3, "", "", "with gainmap: 3 for gains of each colour, 1 for one of all" } },
+          { "scale", 1, 4, "pixels", "",
+            "with gainmap: 1, 2 or 4, the side of the square for one sample of the map" } },
+        { &T::channels, { "channels", 1, 3, "", "", "with gainmap: 3, gains of each colour, or 1, one of all" } },
     };
     return table;
 }
@@ -40,6 +44,12 @@ bool add_rendition(const GainMapRequest& request, const Rendition& rendition, st
         error = hdr.geterror();
         return false;
     }
+    // JPEG shows the display window, from 0 on; see write_parts().
+    const OIIO::ROI full = hdr.roi_full();
+    const OIIO::ROI window(std::max(full.xbegin, 0), full.xend, std::max(full.ybegin, 0), full.yend, 0, 1, 0,
+                           hdr.nchannels());
+    if (hdr.roi() != window)
+        hdr = OIIO::ImageBufAlgo::cut(hdr, window);
     std::string file;
     if (!pimg::add_gain_map(bytes, hdr, request, file, error))
         return false;

@@ -59,6 +59,15 @@ std::string describe(const OIIO::ImageSpec& stored)
                   stored.nchannels == 1 ? "" : "s", stored.format.c_str(), meaning_of(stored).description());
 }
 
+/// Whether samples keep sign and fractions in a file.
+bool holds_floats(const std::string& filename, const OutputOptions& output)
+{
+    const std::string extension = OIIO::Strutil::lower(OIIO::Filesystem::extension(filename, false));
+    const bool fits =
+        extension == "exr" || extension == "tif" || extension == "tiff" || extension == "pfm" || extension == "pimg";
+    return fits && (output.type == OIIO::TypeUnknown || output.type.is_floating_point());
+}
+
 /// A key for a file as it is read: its name and the settings of the reader.
 std::string key_of(const std::string& filename, const InputOptions& settings)
 {
@@ -175,6 +184,11 @@ bool Session::write(const std::string& filename, const pimg::io::WriteOptions& o
 bool Session::write(const std::string& filename, const pimg::io::WriteOptions& options,
                     const std::function<bool(std::string& bytes, std::string& error)>& finish)
 {
+    if (top().is_gain && !holds_floats(filename, output))
+        return fail(format(
+            "cannot write \"{}\": a gain has a sign and fractions: expected .exr, .tif, .pfm or .pimg of half or "
+            "float samples",
+            filename));
     pimg::ProgressiveImage stored;
     if (has_pimg_extension(filename) && options.profile == "full") {
         const pimg::ProgressiveImage* image = hierarchy_of(top());
@@ -286,7 +300,8 @@ bool Session::filter(Picture& picture, const Filter& run, Meaning meaning)
     picture.hierarchy->options.incolorspace.clear();
     if (meaning == Meaning::display_linear)
         picture.linear_light = true;
-    if (meaning == Meaning::gain)
+    picture.is_gain = meaning == Meaning::gain;
+    if (picture.is_gain)
         picture.stored = pixel_types(result->spec());
     picture.labels = result->spec().format == OIIO::TypeUInt32 && result->spec().find_attribute(pimg::kLabelCount);
     say(format("{}: filtered, {:.3f} s", picture.name, timer.seconds()));
@@ -310,8 +325,8 @@ bool Session::hdr_compress(pimg::HdrCompressOptions options)
     // All parts get the same exposure, because they are views and passes of one scene.
     if (!top().others.empty() && !iba::resolve_hdr_compress(*top().pixels, options, m_error, top().hierarchy->options))
         return false;
-    if (options.aovs && !top().others.empty())
-        return fail("aovs: expected layers in one part; output=gain serves the layers of others");
+    if (options.output != "display" && !top().others.empty())
+        return fail("output: expected one part, as each would get a gain of its own: --part PART before the file");
     const auto run = [&](OIIO::ImageBuf& dst, const pimg::ProgressiveImage& src) {
         return iba::hdr_compress(dst, src, options) && describe_fit(src, options);
     };

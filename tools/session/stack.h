@@ -36,6 +36,7 @@ struct Picture {
     std::shared_ptr<LazyHierarchy> hierarchy;
     PixelTypes stored;          ///< pixel types of the file it came from: what it is written as unless told otherwise
     bool linear_light = false;  ///< its numbers are linear light that no colour operation has converted
+    bool is_gain = false;       ///< its numbers are logarithms of factors on light
     bool labels = false;        ///< its numbers are those of regions
     Rendition rendition = {};   ///< the same picture for HDR displays, while it is the result of --hdr-compress
     bool is_straight = false;   ///< its reader was asked not to multiply colours by alpha, and no operation has since

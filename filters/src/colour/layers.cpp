@@ -60,15 +60,23 @@ bool is_data_word(const std::string& word)
         || Strutil::ends_with(word, "materialid") || Strutil::ends_with(word, "normals");
 }
 
-/// Words of layers that tell how much light surfaces or pixels let through, not light: to multiply both them and the light
-/// that they scale would count a factor twice.
+/// Words of layers that tell how much light surfaces or pixels let through, or where they are, not light: to multiply both
+/// them and the light that they scale would count a factor twice.
 bool is_surface_word(const std::string& word)
 {
-    for (const char* part : { "albedo", "occlusion", "mask", "matte", "mist", "roughness", "reflectance", "variance",
-                              "samplecount", "weight", "coverage" })
+    for (const char* light : { "light", "painting" })
+        if (Strutil::contains(word, light))
+            return false;
+    for (const char* part :
+         { "albedo",      "occlusion",  "mask",    "matte",    "mist",      "roughness", "reflectance", "variance",
+           "samplecount", "samplerate", "weight",  "coverage", "depth",     "normal",    "position",    "crypto",
+           "texcoord",    "basecolor",  "opacity", "facing",   "wireframe", "filter",    "world",       "dpdt" })
         if (Strutil::contains(word, part))
             return true;
-    return word == "ao" || Strutil::ends_with(word, "_ao") || (Strutil::ends_with(word, "col") && word.size() > 3);
+    for (const char* whole : { "ao", "alpha", "pref", "ng", "nn" })
+        if (word == whole)
+            return true;
+    return Strutil::ends_with(word, "_ao") || (Strutil::ends_with(word, "col") && word.size() > 3);
 }
 
 bool is_data_layer(const std::string& name)

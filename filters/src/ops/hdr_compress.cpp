@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
+
+#include <OpenImageIO/strutil.h>
 
 #include "frame/image_filter.h"
 #include "ops/display_fit.h"
@@ -104,10 +107,12 @@ float offset_of(const Compressed& c)
     const HdrCompressOptions& options = c.options;
     const float reference = std::log2(c.luminance->reference), grey = std::log2(kMiddleGrey);
     const float compressed = compressed_reference(options, c.luminance->reference);
-    if (!options.fit)
+    const bool is_display = options.output == "display";
+    if (!options.fit && is_display)
         return compressed - reference;
-    const float becomes_grey = options.output == "display" ? std::log2(options.key) : options.s0 * grey;
-    return options.contrast * (compressed - becomes_grey) + grey + options.exposure - reference;
+    const float becomes_grey = is_display ? std::log2(options.key) : options.s0 * grey;
+    const float contrast = slope_of(options) * kUnitsPerStop;
+    return contrast * (compressed - becomes_grey) + grey + options.exposure - reference;
 }
 
 /// Raises the zones of the compressed picture. `scene` is its log luminance without texture, in guide units, so that texture
@@ -298,6 +303,20 @@ bool resolve_hdr_compress(const ImageBuf& src, HdrCompressOptions& options, std:
     return true;
 }
 
+namespace {
+
+/// Light that other light is to add up to, and factors on light, are not stored by compressions of OpenEXR that change
+/// numbers.
+void ask_for_lossless(OIIO::ImageSpec& spec)
+{
+    const std::string compression = spec.get_string_attribute("compression");
+    for (const char* lossy : { "b44", "dwa", "pxr24" })
+        if (OIIO::Strutil::istarts_with(compression, lossy))
+            spec.attribute("compression", "zip");
+}
+
+}  // namespace
+
 bool on_hierarchy::hdr_compress(ImageBuf& dst, const ProgressiveImage& src, const HdrCompressOptions& options, ROI roi,
                                 int nthreads)
 {
@@ -320,6 +339,8 @@ bool on_hierarchy::hdr_compress(ImageBuf& dst, const ProgressiveImage& src, cons
         }
         const LightGain gain { slope_of(compressed.options), offset_of(compressed), (*compressed.samples).data(),
                                compressed.luminance->guide.samples.data() };
+        if (options.output != "display")
+            ask_for_lossless(dst.specmod());
         if (is_gain) {
             write_gain(dst, data, roi, parallel, gain);
             return true;

@@ -243,6 +243,8 @@ Status ProgressiveImage::Data::build_hierarchy(const std::vector<Raster>& channe
         return status;
     std::vector<std::vector<float>> samples;
     std::vector<const float*> pointers;
+    samples.reserve(channels.size());
+    pointers.reserve(channels.size());
     for (const Raster& channel : channels)
         samples.push_back(to_mesh_pixels(hierarchy, channel.samples.data()));
     for (const std::vector<float>& channel : samples)

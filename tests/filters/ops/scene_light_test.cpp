@@ -95,6 +95,39 @@ TEST(SceneLight, LayersStillAddUp)
     }
 }
 
+TEST(SceneLight, OnlyLayersOfLightGetTheGain)
+{
+    for (const char* layer : { "diffuse", "matte_painting_light", "mattepainting", "fog", "VRayZDepth", "WorldPosition",
+                               "shadingNormal", "baseColor", "uCryptoAsset00", "Ng", "albedo", "DiffCol" }) {
+        ImageBuf src = picture(24, 20, 6, OIIO::TypeFloat);
+        const std::string name = layer;
+        src.specmod().channelnames = { "R", "G", "B", name + ".R", name + ".G", name + ".B" };
+        for (int y = 0; y < 20; ++y)
+            for (int x = 0; x < 24; ++x) {
+                const float light = x < 12 ? 0.01f : 10.0f, sample[6] = { light, light, light, 1.0f, 1.0f, 1.0f };
+                src.setpixel(x, y, sample);
+            }
+        HdrCompressOptions options = with_output("scene");
+        options.aovs = true;
+        options.s0 = 0.3f;
+        const bool is_light =
+            name.find("light") != name.npos || name.find("painting") != name.npos || name == "diffuse" || name == "fog";
+        EXPECT_EQ(filtered(src, options).getchannel(4, 4, 0, 3) != 1.0f, is_light) << name;
+    }
+}
+
+/// What is to add up is not stored by lossy compression; see ask_for_lossless().
+TEST(SceneLight, IsStoredWithoutLoss)
+{
+    ImageBuf src = hdr_scene();
+    for (const char* compression : { "dwab:60", "b44", "pxr24" }) {
+        src.specmod().attribute("compression", compression);
+        EXPECT_EQ(filtered(src, with_output("scene")).spec().get_string_attribute("compression"), "zip");
+        EXPECT_EQ(filtered(src, with_output("gain")).spec().get_string_attribute("compression"), "zip");
+        EXPECT_EQ(filtered(src, {}).spec().get_string_attribute("compression"), compression);
+    }
+}
+
 TEST(SceneLight, LayersNeedSceneLinearOutput)
 {
     HdrCompressOptions options;
