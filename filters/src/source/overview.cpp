@@ -128,7 +128,8 @@ float roughness(const Raster& log, const OIIO::ROI& cell)
     for (int y = cell.ybegin + 1; y + 1 < cell.yend; ++y)
         for (int x = cell.xbegin + 1; x + 1 < cell.xend; ++x)
             deviations.push_back(std::fabs(second(x, y - 1) - 2.0f * second(x, y) + second(x, y + 1)));
-    if (deviations.empty())
+    constexpr std::size_t kLeast = 25;  ///< a line or a corner is most of what fewer pixels show
+    if (deviations.size() < kLeast)
         return 0.0f;
     constexpr float kOfNormal =
         6.0f * 0.67449f;  ///< the filter's norm; median of the absolute values of a normal variable
