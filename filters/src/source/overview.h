@@ -17,7 +17,7 @@ namespace pimg {
 
 struct Overview {
     std::vector<float> log;     ///< log2 of the mean luminance in every cell of a coarse grid, in guide units
-    std::vector<char> lit;      ///< whether a cell is not black, which says nothing of the light
+    std::vector<char> lit;      ///< whether a cell shows light of the scene: neither black nor noise in the dark
     std::vector<float> weight;  ///< how much a cell says of the scene: little where nothing is but one tone and noise
     float range = 0.0f;         ///< dynamic range of the lit cells, in guide units
     Hierarchy hierarchy;        ///< of the cells
