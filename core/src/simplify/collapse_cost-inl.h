@@ -304,7 +304,7 @@ HWY_INLINE void add_up_channels(EdgeFan& f)
         ChannelFan& m = f.more[c];
         fan_normals(f.corners, f.degree, f.lanes, m.normals, m.z);
         const FanSums s = add_up(m.normals, f.lanes);
-        m.sums = { s.xx, s.xy, s.yy, s.xz, s.yz, s.x, s.y, m.sums.value };
+        m.sums = { s.xx, s.xy, s.yy, s.xz, s.yz, s.x, s.y };
     }
 }
 

@@ -31,10 +31,9 @@ struct FanSums {
 };
 
 /// What a further guide channel adds. Its normals have their own x and y; z, an area, is the same for all channels.
-struct alignas(32) ChannelSums {
+struct ChannelSums {
     float xx, xy, yy, xz, yz;  ///< of A
     float x, y;                ///< of N
-    float value;               ///< the channel's intensity at the vertex
 };
 
 /// Sides of the picture a vertex must stay on.
@@ -67,6 +66,7 @@ struct alignas(64) ChannelFan {
     float z[kLanes + 8];
     float a[5][kLanes], n[2][kLanes];
     ChannelSums sums;
+    float value;      ///< of the centre
     Normals normals;  ///< z is not used
     float alpha[kLanes], beta[kLanes], offset[kLanes];
 };

@@ -128,16 +128,14 @@ HWY_INLINE bool load_star(const WorkingMesh& mesh, Index t, const Zone& zone, in
     const Integers i;
     const int n = star.degree, lanes = lanes_for(n);
     const Neighbours from(mesh, star.ring, n);
-    auto outside = hn::Zero(i);
+    if (!all_in_zone(from, star.ring, n, zone))
+        return false;
     for (int j = 0; j < lanes; j += int(hn::Lanes(i))) {
         hn::Vec<Integers> px, py;
         load_corners(from, star.ring, mesh.nodes[t], j, star.corners, px, py);
         hn::Store(px, i, star.x + j);
         hn::Store(py, i, star.y + j);
-        outside = hn::Or(outside, hn::VecFromMask(i, load_membership(from, star.ring, zone, j).outside));
     }
-    if (!hn::AllTrue(i, hn::Eq(outside, hn::Zero(i))))
-        return false;
     close(star.corners, n, lanes);
     star.x[lanes] = star.y[lanes] = 0;
     star.x[n] = star.x[0];

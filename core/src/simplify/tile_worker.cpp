@@ -100,7 +100,7 @@ void TileWorker::run(const Index* vertices, std::size_t n, float limit)
 /// Fills the sums of a vertex and guesses its key.
 void TileWorker::start(Index v)
 {
-    load_corners(m_mesh, v, Neighbours(m_mesh, m_mesh.rings[v].v.data(), m_mesh.nodes[v].degree), m_zone, m_fan);
+    load_corners(m_mesh, v, Neighbours(m_mesh, m_mesh.rings[v].v.data(), m_mesh.nodes[v].degree), m_fan);
     add_up_channels(m_fan);
     keep_sums(v);
     m_mesh.keys[v] = kFirstKey * least_own_error(m_fan);
@@ -111,18 +111,21 @@ void TileWorker::keep_sums(Index v)
 {
     m_mesh.nodes[v].sums = m_fan.sums;
     for (int c = 0; c < m_fan.more_channels; ++c)
-        m_mesh.more_of(v)[c] = m_fan.more[c].sums;
+        m_mesh.more_of(v)[c].sums = m_fan.more[c].sums;
 }
 
 /// Evaluates the edges of v. Collapses the cheapest one that may be collapsed, or makes its cost the key of v.
 void TileWorker::visit(Index v, float limit)
 {
-    const Neighbours from(m_mesh, m_mesh.rings[v].v.data(), m_mesh.nodes[v].degree);
-    if (!load_corners(m_mesh, v, from, m_zone, m_fan)) {
+    const Index* ring = m_mesh.rings[v].v.data();
+    const int degree = m_mesh.nodes[v].degree;
+    const Neighbours from(m_mesh, ring, degree);
+    if (!all_in_zone(from, ring, degree, m_zone)) {
         m_out.deferred.push_back(v);
         return;
     }
-    load_sums(from, m_fan);
+    load_corners(m_mesh, v, from, m_fan);
+    load_sums(m_mesh, ring, from, m_fan);
     evaluate_edges(m_fan);
     ++m_out.evaluations;
     keep_sums(v);
@@ -248,10 +251,9 @@ void TileWorker::update_sums(Index t, int j, const Placement& place)
         const ChannelFan& m = m_fan.more[c];
         const float zc = m.offset[j] - m.alpha[j] * place.x - m.beta[j] * place.y;
         star_changes(m_star, m_star.more_z[c], { ux, uy, m.z[j] }, { place.x, place.y, zc }, changes, after);
-        apply(m_star, changes, m_fan, m.normals, j, [&](Index q) -> ChannelSums& { return m_mesh.more_of(q)[c]; });
+        apply(m_star, changes, m_fan, m.normals, j, [&](Index q) -> ChannelSums& { return m_mesh.more_of(q)[c].sums; });
         const FanSums s = add_up(after, lanes);
-        ChannelSums& own = m_mesh.more_of(t)[c];
-        own = { s.xx, s.xy, s.yy, s.xz, s.yz, s.x, s.y, own.value };
+        m_mesh.more_of(t)[c].sums = { s.xx, s.xy, s.yy, s.xz, s.yz, s.x, s.y };
     }
 }
 

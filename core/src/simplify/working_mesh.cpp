@@ -229,7 +229,7 @@ Zone WorkingMesh::zone(const Tile& tile) const
 
 std::size_t WorkingMesh::bytes() const
 {
-    return nodes.size() * (sizeof(Node) + sizeof(Ring) + sizeof(float)) + more.size() * sizeof(ChannelSums);
+    return nodes.size() * (sizeof(Node) + sizeof(Ring) + sizeof(float)) + more.size() * sizeof(MoreOfNode);
 }
 
 /// Moves the living of a tile to its beginning and returns how many they are. `number_of` receives their places in it.

@@ -22,17 +22,24 @@ struct Home {
     std::uint16_t x = 0, y = 0;
 };
 
+/// Four quarters. The first holds what start_tile() reads of neighbours, which it does not change.
 struct alignas(64) Node {
-    FanSums sums;  ///< of its fan, origin at the vertex
+    Home home;
     float z;       ///< intensity
     Point p;       ///< position
+    FanSums sums;  ///< of its fan, origin at the vertex
     Index name;    ///< name of the vertex whose number it keeps: its mesh pixel, or its place in the initial mesh
     float order;   ///< cost of its last collapse, but no lower than that of any collapse this one depends on
-    Home home;
     std::uint8_t degree;  ///< 0: merged into another
     std::uint8_t side;    ///< Side
 };
 static_assert(sizeof(Node) == 64, "a vertex is one cache line");
+
+/// What a further guide channel adds to a node.
+struct alignas(32) MoreOfNode {
+    ChannelSums sums;
+    float value;  ///< the channel's intensity
+};
 
 /// Vertices [first, last) belong to the tile at (x, y) of the current tile grid.
 struct Tile {
@@ -60,9 +67,9 @@ public:
     FlatArray<float>
         keys;  ///< cost limit from which on a vertex is evaluated; infinite: not until its neighbourhood changes
     std::vector<Tile> tiles;
-    int more_channels = 0;          ///< guide channels besides the first
-    std::vector<ChannelSums> more;  ///< of vertex v: [v * more_channels, (v + 1) * more_channels)
-    std::vector<float> weights;     ///< of all channels
+    int more_channels = 0;         ///< guide channels besides the first
+    std::vector<MoreOfNode> more;  ///< of vertex v: [v * more_channels, (v + 1) * more_channels)
+    std::vector<float> weights;    ///< of all channels
 
     /// One vertex per mesh pixel; each quad is cut along the diagonal with the smaller jump. Sums are left to
     /// start_tile().
@@ -72,8 +79,8 @@ public:
     /// pixel.
     WorkingMesh(const Guide& guide, const InitialMesh& initial);
 
-    const ChannelSums* more_of(Index v) const { return more.data() + std::size_t(v) * std::size_t(more_channels); }
-    ChannelSums* more_of(Index v) { return more.data() + std::size_t(v) * std::size_t(more_channels); }
+    const MoreOfNode* more_of(Index v) const { return more.data() + std::size_t(v) * std::size_t(more_channels); }
+    MoreOfNode* more_of(Index v) { return more.data() + std::size_t(v) * std::size_t(more_channels); }
 
     Index alive() const { return m_alive; }
     void add_dead(Index count) { m_alive -= count; }
