@@ -36,7 +36,9 @@ usage: ./dev.sh COMMAND
           --deep     clang's static analyser instead of the other checks of clang-tidy, five times as slow
           COMMIT     is where this branch left main, or the one before the last on main itself
   fuzz    setup, build the fuzz targets with clang, run each for its share of a time: fuzz MINUTES [TARGET...]. It starts
-          from fuzz/corpus and what earlier runs found; build/fuzz/crashes receives inputs that are findings
+          from fuzz/corpus and what earlier runs found; build/fuzz/crashes receives inputs that are findings.
+          --quick  20 s for each that needs no OpenImageIO, and the tests of core, codec and painting in the same
+                   instrumented build
   sanitize  setup, then the tests of core, codec and painting and the replay of all kept inputs with AddressSanitizer,
           UndefinedBehaviorSanitizer and the assertions of libstdc++ in build/sanitize; --threads, --memory: with
           ThreadSanitizer, MemorySanitizer instead
@@ -154,34 +156,65 @@ run_check() { # options as in usage()
     fi
 }
 
-run_fuzz() { # minutes, targets...
-    local minutes=${1:?"fuzz: expected a number of minutes"} target found crashes
-    shift
-    packages+=(clang)
+readonly fuzz_targets=(decoder roundtrip stroke_file build colour options metadata plugin command_line shot)
+
+build_fuzz() { # tree, option or '', targets of the build...
+    local tree=$1 option=$2 launcher=()
+    shift 2
+    packages+=(clang libclang-rt-14-dev)
     setup
+    say "building the fuzz targets in $tree"
+    mkdir -p build
+    if command -v ccache >/dev/null; then
+        launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+    fi
+    cmake --preset fuzz -B "$tree" ${launcher[@]+"${launcher[@]}"} ${option:+"$option"} >"$tree.configure.log" ||
+        { cat "$tree.configure.log"; return 1; }
+    cmake --build "$tree" -j "$jobs" --target "$@"
+}
+
+fuzz_one() { # tree, target, seconds
+    local tree=$PWD/$1 target=$2 seconds=$3 top=$PWD
+    local found=$tree/found/$target crashes=$tree/crashes/$target log=$tree/$target.log
+    mkdir -p "$found" "$crashes" "$tree/fuzz/corpus/$target"
+    (cd "$tree/fuzz/scratch/$target" && LSAN_OPTIONS=suppressions=$top/fuzz/leaks.supp:print_suppressions=0 \
+        "$tree/fuzz/fuzz_$target" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -max_len=8192 \
+        -artifact_prefix="$crashes/" -print_final_stats=1 "$found" "$tree/fuzz/corpus/$target") >"$log" 2>&1 || true
+    echo "$target: $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") executions in $seconds s"
+    if [[ -n $(ls "$crashes") ]] || ! grep -q "^stat::number_of_executed_units" "$log"; then
+        grep -vE '^#|DICT|NEW_FUNC|dictionary|# Uses' "$log" | tail -50
+        echo "dev.sh: findings of $target in $crashes" >&2
+        return 1
+    fi
+}
+
+run_fuzz() { # minutes, targets...
+    local minutes=${1:?"fuzz: expected a number of minutes"} seconds target
+    shift
     local targets=("$@")
     if [[ ${#targets[@]} -eq 0 ]]; then
-        targets=(decoder roundtrip stroke_file options metadata plugin command_line shot)
+        targets=("${fuzz_targets[@]}")
     fi
-    say "building ${#targets[@]} fuzz targets in build/fuzz"
-    mkdir -p build
-    cmake --preset fuzz ${fuzz_options[@]+"${fuzz_options[@]}"} >build/fuzz.configure.log || { cat build/fuzz.configure.log; return 1; }
-    cmake --build build/fuzz -j "$jobs" --target "${targets[@]/#/fuzz_}"
-    local seconds
+    build_fuzz build/fuzz '' "${targets[@]/#/fuzz_}"
     seconds=$(awk -v m="$minutes" -v n="${#targets[@]}" 'BEGIN { print int(60 * m / n + 0.5) }')
+    say "$seconds s each"
     for target in "${targets[@]}"; do
-        found=build/fuzz/found/$target crashes=$PWD/build/fuzz/crashes/$target
-        mkdir -p "$found" "$crashes" "build/fuzz/fuzz/corpus/$target"
-        say "$target for $seconds s"
-        (cd "build/fuzz/fuzz/scratch/$target" && LSAN_OPTIONS=suppressions=$OLDPWD/fuzz/leaks.supp:print_suppressions=0 \
-            "$OLDPWD/build/fuzz/fuzz/fuzz_$target" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -max_len=8192 \
-            -artifact_prefix="$crashes/" -print_final_stats=1 "$OLDPWD/$found" "$OLDPWD/build/fuzz/fuzz/corpus/$target" 2>&1) |
-            grep -vE '^#|DICT|NEW_FUNC|dictionary|# Uses' || true
-        if [[ -n $(ls "$crashes") ]]; then
-            echo "dev.sh: findings of $target in $crashes" >&2
-            return 1
-        fi
+        fuzz_one build/fuzz "$target" "$seconds"
     done
+}
+
+# What fits into continuous integration: the targets that need no OpenImageIO, 20 seconds each from their corpus, and the
+# tests of the engine in the same instrumented build.
+run_fuzz_quick() {
+    local tree=build/fuzz-quick target failed=0
+    build_fuzz "$tree" -DPIMG_CODEC_ONLY=ON fuzz_decoder fuzz_roundtrip fuzz_stroke_file engine_tests
+    say "20 s for each target"
+    for target in decoder roundtrip stroke_file; do
+        fuzz_one "$tree" "$target" 20 || failed=1
+    done
+    say "tests of core, codec and painting with AddressSanitizer and UndefinedBehaviorSanitizer"
+    ctest --test-dir "$tree" --output-on-failure -j "$jobs" -R '^(core|codec|painting)\.' || failed=1
+    return "$failed"
 }
 
 run_sanitize() { # --threads, --memory
@@ -273,7 +306,7 @@ build) run_build ;;
 test) run_test ;;
 check) run_check "$@" ;;
 package) run_package ;;
-fuzz) run_fuzz "$@" ;;
+fuzz) if [[ ${1:-} == --quick ]]; then run_fuzz_quick; else run_fuzz "$@"; fi ;;
 sanitize) run_sanitize "$@" ;;
 demo) run_demo ;;
 gallery) run_gallery ;;

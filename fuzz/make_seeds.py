@@ -22,6 +22,37 @@ COMMAND_LINES = ["in.png\n--level:fraction=0.1\n-o\nout.png", "--frames\n1-10x3\
                  "a.exr\n--colorconvert\nlinear\nsRGB\n-d\nuint8\n-o:quality=90\nb.jpg"]
 
 
+BUILDS = ["", "guide=rgb:weights=1,0.5,0.5:base=2", "mesh=adaptive:density=0.5:control=curvature", "metric=exact:guide=lab",
+          "wrap=xy:guide=log", "density=nan:mesh=adaptive", "weights=inf,1e38,-0", "base=2147483647", "incolorspace=lin_ap1_scene"]
+COLOURS = [("", "black"), ("lin_rec709_scene", "0.9,0.8,0.7"), ("g22_adobergb", "nan"), ("srgb_p3d65_display", "1e39,2,3"),
+           ("gamma2.2", ",,"), ("ACEScg", "0.5")]
+
+
+def profile(curve):
+    """A small ICC profile (ICC.1:2022) of Rec. 709's primaries: a header, a table of tags, and what they point at."""
+    def fixed(*values):
+        return b"".join(round(value * 65536).to_bytes(4, "big", signed=True) for value in values)
+
+    xyz = {b"wtpt": (0.9642, 1, 0.8249), b"rXYZ": (0.4361, 0.2225, 0.0139), b"gXYZ": (0.3851, 0.7169, 0.0971),
+           b"bXYZ": (0.1431, 0.0606, 0.7141)}
+    tags = {name: b"XYZ \0\0\0\0" + fixed(*value) for name, value in xyz.items()}
+    tags.update({name: curve for name in (b"rTRC", b"gTRC", b"bTRC")})
+    tags[b"desc"] = b"desc\0\0\0\0" + (5).to_bytes(4, "big") + b"seed\0" + bytes(79)
+    table, data = len(tags).to_bytes(4, "big"), b""
+    for name, value in tags.items():
+        table += name + (132 + 12 * len(tags) + len(data)).to_bytes(4, "big") + len(value).to_bytes(4, "big")
+        data += value + bytes(-len(value) % 4)
+    header = bytes(8) + b"\x02\x40\0\0mntrRGB XYZ " + bytes(12) + b"acsp" + bytes(28) + fixed(0.9642, 1, 0.8249) + bytes(48)
+    return (128 + len(table) + len(data)).to_bytes(4, "big") + header[4:] + table + data
+
+
+def profiles():
+    """None, one with a gamma of 2.2, one with a table, one with the parameters of sRGB's curve."""
+    srgb = b"".join(round(v * 65536).to_bytes(4, "big") for v in (2.4, 0.9479, 0.0521, 0.0774, 0.0405))
+    return [b"", profile(b"curv\0\0\0\0\0\0\0\1\2\x33"), profile(b"curv\0\0\0\0\0\0\0\3\0\0\x40\0\xff\xff"),
+            profile(b"para\0\0\0\0\0\3\0\0" + srgb)]
+
+
 def option_rows(tool):
     """(command, key, default) of every option, from the long help."""
     text = subprocess.run([tool, "--help:format=man"], capture_output=True, text=True, check=True).stdout
@@ -65,6 +96,12 @@ def main(conformance, tool, folder):
         write(folder / "options", number, f"{name}\nfraction=0.5:seed=3:stats=\"a b.json\"")
     for number, text in enumerate(COMMAND_LINES):
         write(folder / "command_line", number, text)
+    for number, text in enumerate(BUILDS):
+        write(folder / "build", number, text.encode() + b"\n\x0b\x07\x02" + bytes(range(256)) * 3)
+    for number, (space, colours) in enumerate(COLOURS):
+        for profile in profiles():
+            write(folder / "colour", number, f"{space}\n{colours}\n".encode() + profile)
+            number += len(COLOURS)
     for number, text in enumerate(SHOTS):
         write(folder / "shot", number, text)
     for number in range(4):

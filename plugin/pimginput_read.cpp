@@ -10,6 +10,7 @@
 #include <OpenImageIO/strutil.h>
 
 #include <pimg/detail/format.h>
+#include <pimg/detail/oiio_compat.h>
 #include <pimg/detail/parallel.h>
 #include <pimg/threads.h>
 
@@ -208,7 +209,7 @@ static bool halve(const ImageBuf& above, const ImageSpec& size, int nthreads, Im
     run(pool_loop(nthreads), std::size_t((size.height + kRows - 1) / kRows), [&](std::size_t strip) {
         const int y0 = int(strip) * kRows, y1 = std::min(size.height, y0 + kRows);
         const ROI rows(0, size.width, y0, y1, 0, 1, 0, size.nchannels);
-        if (!OIIO::ImageBufAlgo::resize(level, above, "box", 0.0f, rows, 1))
+        if (!resize_picture(level, above, "box", rows, 1))
             failed = true;
     });
     return !failed;

@@ -115,10 +115,14 @@ OIIO::ROI to_roi(const py::object& object)
     if (py::isinstance<OIIO::ROI>(object))
         return object.cast<OIIO::ROI>();
     if (py::isinstance<py::sequence>(object) && py::len(object) == 4) {
-        const auto roi = object.cast<std::vector<int>>();
-        return { roi[0], roi[1], roi[2], roi[3] };
+        try {
+            const auto roi = object.cast<std::vector<int>>();
+            return { roi[0], roi[1], roi[2], roi[3] };
+        } catch (const py::cast_error&) {
+            // Not whole numbers of 32 bits: the message below says so, which that of the cast does not.
+        }
     }
-    throw py::type_error("roi: expected an OpenImageIO.ROI or (xbegin, xend, ybegin, yend)");
+    throw py::type_error("roi: expected an OpenImageIO.ROI or (xbegin, xend, ybegin, yend), whole numbers of 32 bits");
 }
 
 }  // namespace python

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/strutil.h>
 
 #include <pimg/detail/format.h>
+#include <pimg/detail/oiio_compat.h>
 #include <pimg/display.h>
 #include <pimg/imagebufalgo.h>
 
@@ -202,7 +202,7 @@ void save(const Progressive& progressive, const std::string& filename, const Opt
             error = error.empty() ? progressive.pixels->geterror() : error;
         }
         // OpenImageIO's cache may still hold the old file of this name.
-        OIIO::ImageCache::create(true)->invalidate(OIIO::ustring(filename), true);
+        forget_in_shared_cache(filename);
     }
     if (!error.empty())
         raise(PyExc_OSError, format("cannot write \"{}\": {}", filename, error));

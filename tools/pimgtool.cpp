@@ -14,6 +14,7 @@
 #include <exception>
 #include <mutex>
 #include <new>
+#include <system_error>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -150,14 +151,46 @@ namespace {
 
 #ifdef __ELF__
 /// With less address space than this, libraries crash while they start (measured: below 440 MB with OpenImageIO 2.4 and
-/// OpenColorIO 2.1).
+/// OpenColorIO 2.1, and one thread in OpenBLAS).
 constexpr rlim_t kLeastAddressSpace = rlim_t(480) << 20;
 
-void before_libraries(int, char**, char**)
+constexpr char kOneBlasThread[] = "OPENBLAS_NUM_THREADS=1";
+
+/// Starts the program again with one thread in OpenBLAS, which OpenCV brings and nothing here uses. Its threads ask for
+/// 128 MB each until they get it: where address space is limited they took what OpenImageIO needs to start, which
+/// crashed, or ran for ever. Returns where the environment has that setting already or nothing can be started.
+void start_again_with_less(char** argv, char** environment)
+{
+    constexpr std::size_t kMost = 4096, kName = sizeof kOneBlasThread - 2;  // up to "="
+    static const char* changed[kMost + 2];
+    std::size_t n = 0;
+    for (; environment[n] != nullptr && n < kMost; ++n) {
+        if (std::strncmp(environment[n], kOneBlasThread, kName) == 0)
+            return;
+        changed[n] = environment[n];
+    }
+    changed[n] = kOneBlasThread;
+    execve("/proc/self/exe", argv, const_cast<char**>(changed));
+}
+
+/// Where address space is limited, libraries go on with what was not allocated, and fail an assertion or crash: the
+/// first thing that memory is missing for ends the program, and so does what a C library makes of a null pointer.
+void end_where_memory_ends()
+{
+    std::set_new_handler(out_of_memory);
+    for (const int fatal : { SIGSEGV, SIGABRT })
+        std::signal(fatal, [](int) { out_of_memory(); });
+}
+
+void before_libraries(int, char** argv, char** environment)
 {
     rlimit limit {};
-    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur < kLeastAddressSpace)
-        out_of_memory();
+    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
+        if (limit.rlim_cur < kLeastAddressSpace)
+            out_of_memory();
+        start_again_with_less(argv, environment);
+        end_where_memory_ends();
+    }
     std::set_terminate(out_of_memory);
 }
 
@@ -199,6 +232,9 @@ int main(int argc, char** argv)
         return flushed(run_arguments(std::vector<std::string>(argv + 1, argv + argc)));
     } catch (const std::bad_alloc&) {
         return report("not enough memory");
+    } catch (const std::system_error& e) {
+        const bool lacks = e.code() == std::errc::resource_unavailable_try_again;  // stacks of threads are memory, too
+        return report(lacks ? "not enough memory for another thread" : e.what());
     } catch (const std::exception& e) {
         return report(e.what());
     }

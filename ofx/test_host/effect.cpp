@@ -133,12 +133,21 @@ bool HostImage::is_intact() const
 
 namespace {
 
+OIIO::ImageBuf scaled_to(const OIIO::ImageBuf& frame, OIIO::ROI size)
+{
+#if OIIO_VERSION >= OIIO_MAKE_VERSION(3, 0, 0)
+    return OIIO::ImageBufAlgo::resize(frame, { { "filtername", "box" } }, size);
+#else
+    return OIIO::ImageBufAlgo::resize(frame, "box", 0.0f, size);
+#endif
+}
+
 std::shared_ptr<HostImage> image_of(const Footage& footage, OfxTime time)
 {
     const OfxRectI box = footage.pixels(time);
     OIIO::ImageBuf scaled = footage.at(time);
     if (footage.scale != 1.0)
-        scaled = OIIO::ImageBufAlgo::resize(scaled, "box", 0.0f, OIIO::ROI(0, box.x2 - box.x1, 0, box.y2 - box.y1));
+        scaled = scaled_to(scaled, OIIO::ROI(0, box.x2 - box.x1, 0, box.y2 - box.y1));
     const int channels = channels_of(footage.components);
     if (channels != scaled.nchannels()) {
         std::vector<int> order;

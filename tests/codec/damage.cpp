@@ -2,7 +2,7 @@
 // Damaged files: every truncation of six small ones, every single bit flipped, random damage with the checksums off.
 // Each must end in an error or a picture, and a hierarchy that is read must be a whole one of that picture; a whole file
 // must give both. Meant to be run with AddressSanitizer and UndefinedBehaviorSanitizer, and within a time limit.
-// Usage: codec_damage [rounds of random damage, default 2000]
+// Usage: codec_damage [rounds of random damage, default 2000 [files of which every bit is flipped, default 1, at most 6]]
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -93,6 +93,7 @@ Hierarchy hierarchy_of_chosen(const Picture& picture)
 int main(int argc, char** argv)
 {
     const long rounds = argc > 1 ? std::atol(argv[1]) : 2000;
+    const std::size_t flips = argc > 2 ? std::size_t(std::atol(argv[2])) : 1;
     long hierarchies = 0;
     std::vector<std::vector<std::uint8_t>> files;
     std::vector<Picture> pictures = conformance_pictures();
@@ -120,10 +121,13 @@ int main(int argc, char** argv)
     for (std::size_t i = 0; i < files.size(); ++i)
         for (std::size_t n = 0; n <= files[i].size(); ++n)
             try_file(files[i].data(), n, true, pictures[i], cut);
-    for (std::size_t bit = 0; bit < files[4].size() * 8; ++bit) {
-        std::vector<std::uint8_t> file = files[4];
-        file[bit / 8] = std::uint8_t(file[bit / 8] ^ (1u << (bit % 8)));
-        try_file(file.data(), file.size(), true, pictures[4], flipped);
+    for (std::size_t n = 0; n < std::min(flips, files.size()); ++n) {
+        const std::size_t i = (n + 4) % files.size();
+        for (std::size_t bit = 0; bit < files[i].size() * 8; ++bit) {
+            std::vector<std::uint8_t> file = files[i];
+            file[bit / 8] = std::uint8_t(file[bit / 8] ^ (1u << (bit % 8)));
+            try_file(file.data(), file.size(), true, pictures[i], flipped);
+        }
     }
     std::uint32_t seed = 12345;
     for (long round = 0; round < rounds; ++round) {

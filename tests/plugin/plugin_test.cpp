@@ -12,9 +12,10 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
-#include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/texture.h>
 #include <OpenImageIO/thread.h>
+
+#include <pimg/detail/oiio_compat.h>
 
 #include "plugin/plugin_pictures.h"
 #include "watchdog.h"
@@ -189,7 +190,7 @@ TEST(Plugin, HasAThumbnailOfThePicture)
     EXPECT_EQ(thumbnail.nchannels(), in->spec().get_int_attribute("thumbnail_nchannels"));
     EXPECT_EQ(thumbnail.spec().width, 256);
     EXPECT_EQ(thumbnail.spec().height, 128);
-    OIIO::ImageBufAlgo::resize(resized, OIIO::ImageBuf("thumbnail.pimg"), "", 0.0f, thumbnail.roi());
+    pimg::resize_picture(resized, OIIO::ImageBuf("thumbnail.pimg"), "", thumbnail.roi(), 0);
     EXPECT_LT(OIIO::ImageBufAlgo::compare(thumbnail, resized, 1.0f, 1.0f).rms_error, 0.02);
     EXPECT_FALSE(in->get_thumbnail(thumbnail, 1));
     EXPECT_TRUE(OIIO::ImageBuf("thumbnail.pimg").has_thumbnail());
@@ -565,14 +566,13 @@ TEST(Plugin, WorksInCacheAndTextureSystem)
     const Picture picture = slope(ImageSpec(256, 128, 3, TypeDesc::FLOAT));
     write(picture, "texture.pimg");
     for (const char* name : { "texture.pimg", "texture.pimg?mip=1" }) {
-        auto* cache = OIIO::ImageCache::create(false);
+        const std::shared_ptr<OIIO::ImageCache> cache = pimg::private_image_cache();
         std::vector<std::uint8_t> pixels(picture.pixels.size());
         ASSERT_TRUE(cache->get_pixels(OIIO::ustring(name), 0, 0, 0, 256, 0, 128, 0, 1, TypeDesc::FLOAT, pixels.data()))
             << cache->geterror();
         EXPECT_TRUE(pixels == picture.pixels);
-        OIIO::ImageCache::destroy(cache);
 
-        auto* textures = OIIO::TextureSystem::create(false);
+        const std::shared_ptr<OIIO::TextureSystem> textures = pimg::private_texture_system();
         std::atomic<int> wrong { 0 };
         on_threads(4, [&](unsigned) {
             for (int i = 0; i < 200; ++i) {
@@ -586,7 +586,6 @@ TEST(Plugin, WorksInCacheAndTextureSystem)
             }
         });
         EXPECT_EQ(wrong, 0) << name << textures->geterror();
-        OIIO::TextureSystem::destroy(textures);
     }
 }
 

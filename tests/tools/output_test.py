@@ -109,6 +109,10 @@ class FullDisk(OutputTest):
             if result.returncode != 127:
                 break
         self.assertEqual((result.returncode, result.stderr), (1, "pimgtool: error: not enough memory\n"))
+        for kilobytes in (500000, 540000, 620000):  # where threads of libraries took what others needed to start
+            result = subprocess.run(["bash", "-c", f'ulimit -v {kilobytes}; exec "$@"', "bash", pictures.TOOL, "--version"],
+                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=60)
+            self.assertIn((result.returncode, result.stderr), ((0, ""), (1, "pimgtool: error: not enough memory\n")))
 
 
 class Targets(OutputTest):

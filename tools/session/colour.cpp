@@ -9,6 +9,7 @@
 
 #include <pimg/colour.h>
 #include <pimg/detail/format.h>
+#include <pimg/detail/oiio_compat.h>
 
 namespace pimgtool {
 
@@ -130,10 +131,11 @@ bool find_display(std::string& display, std::string& view, std::string& error)
 OIIO::ColorProcessorHandle display_transform(const std::string& display, const std::string& view,
                                              const std::string& from, const DisplayOptions& options, std::string& error)
 {
+    OIIO::ColorConfig& config = colour_config();
     OIIO::ColorProcessorHandle processor =
-        colour_config().createDisplayTransform(display, view, from, options.looks, options.key, options.value);
+        pimg::display_processor(config, { display, view, from, options.looks, options.key, options.value });
     if (!processor)
-        error = colour_config().geterror();
+        error = config.geterror();
     return processor;
 }
 

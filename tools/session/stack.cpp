@@ -6,10 +6,10 @@
 #include <iterator>
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/strutil.h>
 
 #include <pimg/detail/format.h>
+#include <pimg/detail/oiio_compat.h>
 #include <pimg/detail/parts.h>
 #include <pimg/imagebufalgo.h>
 #include <pimg/labels.h>
@@ -223,7 +223,7 @@ bool Session::write(const std::string& filename, const pimg::io::WriteOptions& o
     // From now on this name means the new file, so pictures kept of the old one are dropped.
     for (auto kept = m_kept.begin(); kept != m_kept.end();)
         kept = kept->second.name == filename ? m_kept.erase(kept) : std::next(kept);
-    OIIO::ImageCache::create(true)->invalidate(OIIO::ustring(filename), true);
+    pimg::forget_in_shared_cache(filename);
     say(format("{}: wrote {}, {:.2f} s", filename, summary, timer.seconds()));
     return true;
 }

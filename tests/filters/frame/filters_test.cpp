@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What holds for every filter: identities, regions, threads, pixel types, windows, errors.
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
-#include <OpenImageIO/deepdata.h>
-#include <OpenImageIO/imagecache.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
+#include <OpenImageIO/deepdata.h>
+
+#include <pimg/detail/oiio_compat.h>
 #include <pimg/imagebufalgo.h>
 
 #include "filters/pictures.h"
@@ -187,15 +192,60 @@ TEST(Filters, TheDestinationMayBeTheSource)
     }
 }
 
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+/// How often to do something: $name, or `usual`.
+int times(const char* name, int usual)
+{
+    const char* value = std::getenv(name);
+    return value != nullptr ? std::atoi(value) : usual;
+}
+
+// $PIMG_BUILDS and $PIMG_RETUNES ask for more, as before a release: 200 and 10000.
+TEST(Filters, MemoryDoesNotGrow)
+{
+    constexpr std::size_t kSlack = 1 << 16;  // less than what two pictures, or a kilobyte each time, would leave behind
+    const int builds = times("PIMG_BUILDS", 12), retunes = times("PIMG_RETUNES", 100);
+    const ImageBuf src = hdr_scene();
+    const auto work = [&](int count) {
+        ProgressiveImage image;
+        ASSERT_TRUE(image.build(src, {}, 1)) << image.error();
+        HdrCompressOptions options;
+        for (int i = 0; i < count; ++i) {
+            options.s0 = 0.2f + 0.1f * float(i % 7);
+            ASSERT_FALSE(ImageBufAlgo::hdr_compress(image, options, {}, 1).has_error());
+        }
+    };
+    const auto in_use = [] {
+        return mallinfo2().uordblks + mallinfo2().hblkhd;
+    };
+    work(30);
+    work(3);
+    const std::size_t before = in_use();
+    for (int i = 0; i < builds; ++i)
+        work(retunes / builds);
+    EXPECT_LE(in_use(), before + kSlack) << builds << " builds, " << retunes << " retunes";
+    ProgressiveImage image;
+    ASSERT_TRUE(image.build(src, {}, 1)) << image.error();
+    HdrCompressOptions options;
+    for (int i = 0; i < 10; ++i)
+        ImageBufAlgo::hdr_compress(image, options, {}, 1);
+    const std::size_t kept = in_use();
+    for (int i = 0; i < retunes; ++i) {
+        options.s0 = 0.2f + 0.1f * float(i % 7);
+        ImageBufAlgo::hdr_compress(image, options, {}, 1);
+    }
+    EXPECT_LE(in_use(), kept + kSlack) << retunes << " retunes of one image";
+}
+#endif
+
 TEST(Filters, PicturesMayLieInTheImageCache)
 {
     const ImageBuf src = hdr_scene();
     ASSERT_TRUE(src.write("cached.exr")) << src.geterror();
-    const std::shared_ptr<OIIO::ImageCache> cache(OIIO::ImageCache::create(false),
-                                                  [](OIIO::ImageCache* c) { OIIO::ImageCache::destroy(c); });
+    const std::shared_ptr<OIIO::ImageCache> cache = private_image_cache();
     for (const auto& [name, filter] : all_filters<ImageBuf>()) {
-        ImageBuf cached("cached.exr", 0, 0, cache.get());
-        ImageBuf direct, from_cache, into_cached("cached.exr", 0, 0, cache.get());
+        ImageBuf cached = picture_in_cache("cached.exr", cache);
+        ImageBuf direct, from_cache, into_cached = picture_in_cache("cached.exr", cache);
         ASSERT_TRUE(cached.init_spec("cached.exr", 0, 0));
         ASSERT_EQ(cached.storage(), ImageBuf::IMAGECACHE);
         EXPECT_FILTER(direct, filter(direct, src, {}, 0)) << name;

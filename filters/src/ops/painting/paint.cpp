@@ -8,6 +8,7 @@
 #include <OpenImageIO/imagebufalgo.h>
 
 #include <pimg/detail/format.h>
+#include <pimg/detail/oiio_compat.h>
 #include <pimg/display.h>
 #include <pimg/paint.h>
 
@@ -41,7 +42,7 @@ bool fitted(const std::string& filename, const ProgressiveImage::Data& data, int
     resized.reset(spec);
     file.set_origin(0, 0);
     file.set_full(0, file.spec().width, 0, file.spec().height, 0, 1);
-    if (!OIIO::ImageBufAlgo::resize(resized, file, nullptr, resized.roi(), 1)) {
+    if (!resize_picture(resized, file, "", resized.roi(), 1)) {
         error = "\"" + filename + "\": " + resized.geterror();
         return false;
     }

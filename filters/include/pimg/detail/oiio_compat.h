@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What differs between the versions of OpenImageIO that pimg is built with, 2.4 to 3.2, in one place (docs/hosts.md).
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <OpenImageIO/color.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imagecache.h>
+#include <OpenImageIO/texture.h>
+
+namespace pimg {
+
+/// ImageBufAlgo::resize() with the filter of that name, or OpenImageIO's choice for an empty one. 3.0 takes a list of
+/// keywords in place of name and width.
+inline bool resize_picture(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, const std::string& filter, OIIO::ROI roi,
+                           int nthreads)
+{
+#if OIIO_VERSION >= OIIO_MAKE_VERSION(3, 0, 0)
+    return OIIO::ImageBufAlgo::resize(dst, src, { { "filtername", filter } }, roi, nthreads);
+#else
+    return OIIO::ImageBufAlgo::resize(dst, src, filter, 0.0f, roi, nthreads);
+#endif
+}
+
+/// An image cache of the caller's own. 3.0 counts references, and needs nobody to destroy it.
+inline std::shared_ptr<OIIO::ImageCache> private_image_cache()
+{
+#if OIIO_VERSION >= OIIO_MAKE_VERSION(3, 0, 0)
+    return OIIO::ImageCache::create(false);
+#else
+    return { OIIO::ImageCache::create(false), [](OIIO::ImageCache* cache) {
+                OIIO::ImageCache::destroy(cache);
+            } };
+#endif
+}
+
+/// The same for textures.
+inline std::shared_ptr<OIIO::TextureSystem> private_texture_system()
+{
+#if OIIO_VERSION >= OIIO_MAKE_VERSION(3, 0, 0)
+    return OIIO::TextureSystem::create(false);
+#else
+    return { OIIO::TextureSystem::create(false), [](OIIO::TextureSystem* textures) {
+                OIIO::TextureSystem::destroy(textures);
+            } };
+#endif
+}
+
+/// A picture whose pixels stay in a cache, which must outlive it.
+inline OIIO::ImageBuf picture_in_cache(const std::string& filename, const std::shared_ptr<OIIO::ImageCache>& cache)
+{
+#if OIIO_VERSION >= OIIO_MAKE_VERSION(3, 0, 0)
+    return OIIO::ImageBuf(filename, 0, 0, cache);
+#else
+    return OIIO::ImageBuf(filename, 0, 0, cache.get());
+#endif
+}
+
+/// Forgets what the shared image cache has read of a file.
+inline void forget_in_shared_cache(const std::string& filename)
+{
+    const auto cache = OIIO::ImageCache::create(true);
+    cache->invalidate(OIIO::ustring(filename), true);
+}
+
+/// Names and settings of a transform to a display.
+struct DisplayTransform {
+    std::string display, view, from, looks, context_key, context_value;
+};
+
+/// The processor of a transform to a display. 2.5 put a direction before the context: the call of 2.4 compiles there, and
+/// takes one for the other.
+inline OIIO::ColorProcessorHandle display_processor(const OIIO::ColorConfig& config, const DisplayTransform& t)
+{
+    using View = OIIO::string_view;
+#if OIIO_VERSION >= OIIO_MAKE_VERSION(2, 5, 0)
+    return config.createDisplayTransform(View(t.display), View(t.view), View(t.from), View(t.looks), false,
+                                         View(t.context_key), View(t.context_value));
+#else
+    return config.createDisplayTransform(View(t.display), View(t.view), View(t.from), View(t.looks),
+                                         View(t.context_key), View(t.context_value));
+#endif
+}
+
+}  // namespace pimg
