@@ -65,9 +65,15 @@ public:
     std::size_t pwrite(const void* from, std::size_t size, std::int64_t offset) override;
     std::size_t size() const override;
 #if OIIO_VERSION >= OIIO_MAKE_VERSION(3, 0, 0)
-    void flush() override { flush_buffer(); }
+    void flush() override
+    {
+        flush_buffer();
+    }
 #else
-    void flush() const override { flush_buffer(); }
+    void flush() const override
+    {
+        flush_buffer();
+    }
 #endif
 
 private:
