@@ -2,65 +2,25 @@
 #include "simplify/collapse_record.h"
 
 #include <algorithm>
-#include <array>
-#include <cstring>
 #include <utility>
 
 #include "mesh/pixel_stencils.h"
 #include <pimg/detail/analyse.h>
 #include <pimg/detail/parallel.h>
 
+#include "simplify/key_sort.h"
+
 namespace pimg {
 
 namespace {
 
-/// A record and its order, as the bits of the float, which is never negative.
-struct Item {
-    std::uint32_t key;
-    Index index;
-};
-
-/// One pass of a radix sort by many threads: parts of `from` are counted, then moved behind each other.
-void move_by_bits(const FlatArray<Item>& from, int shift, int bits, const ParallelFor& parallel, FlatArray<Item>& to)
-{
-    constexpr std::size_t kParts = 16;
-    const std::size_t n = from.size(), buckets = std::size_t(1) << bits;
-    std::vector<std::vector<std::size_t>> place(kParts);
-    const auto for_part = [&](std::size_t part, const auto& visit) {
-        for (std::size_t i = n * part / kParts; i < n * (part + 1) / kParts; ++i)
-            visit(from[i], place[part][(from[i].key >> shift) & (buckets - 1)]);
-    };
-    run(parallel, kParts, [&](std::size_t part) {
-        place[part].resize(buckets);
-        for_part(part, [](const Item&, std::size_t& count) { ++count; });
-    });
-    std::size_t next = 0;
-    for (std::size_t bucket = 0; bucket < buckets; ++bucket)
-        for (std::vector<std::size_t>& counts : place)
-            next += std::exchange(counts[bucket], next);
-    run(parallel, kParts,
-        [&](std::size_t part) { for_part(part, [&](const Item& item, std::size_t& at) { to[at++] = item; }); });
-}
-
 /// Indices of `records` by increasing order, ties in the order they were done.
 std::vector<Index> sorted(const FlatArray<CollapseRecord>& records, const ParallelFor& parallel)
 {
-    constexpr int kBits = 11, kPasses = 3;  // for the 32 bits of a float; tables of 2^11 stay in the cache
-    const std::size_t n = records.size();
-    FlatArray<Item> from, to;
-    from.extend(n);
-    to.extend(n);
-    in_batches(parallel, n, [&](std::size_t i) {
-        std::memcpy(&from[i].key, &records[i].order, sizeof from[i].key);
-        from[i].index = Index(i);
-    });
-    for (int pass = 0; pass < kPasses; ++pass) {
-        move_by_bits(from, pass * kBits, kBits, parallel, to);
-        std::swap(from, to);
-    }
-    std::vector<Index> by_order(n);
-    in_batches(parallel, n, [&](std::size_t i) { by_order[i] = from[i].index; });
-    return by_order;
+    FlatArray<KeyedIndex> items;
+    items.extend(records.size());
+    in_batches(parallel, records.size(), [&](std::size_t i) { items[i] = { records[i].order, Index(i) }; });
+    return pimg::sorted(std::move(items), parallel);
 }
 
 /// Calls visit(i, record) for the splits i of a batch, coarse to fine. Their records are scattered in memory, so they

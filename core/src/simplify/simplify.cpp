@@ -25,20 +25,26 @@ constexpr float kSweepFactor = 4.0f;  ///< between the limits of successive swee
 constexpr const char* kStopped = "building was stopped";
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
+/// Share of the vertices that bisection may remove.
+constexpr double kMostBisected = 2.0 / 3.0;
+
 /// Shape a triangle must keep: twice its area over its longest edge squared. The second
 /// value only serves to finish down to the corners when the first leaves nothing to do.
 constexpr float kGuards[2] = { 1e-3f, 1e-5f };
 
 class Simplifier {
 public:
-    Simplifier(WorkingMesh&& mesh, const SimplifyOptions& options)
+    /// `done`: the collapses by which the mesh was made.
+    Simplifier(WorkingMesh&& mesh, CollapseSequence&& done, const SimplifyOptions& options)
         : m_mesh(std::move(mesh)),
           m_options(options),
+          m_sequence(std::move(done)),
           m_total(m_mesh.alive())
     {
         m_sequence.channels = m_mesh.more_channels + 1;
+        m_stats.collapses = m_sequence.records.size();
         // Takes memory only as it fills; growing would need twice as much for a moment.
-        m_sequence.records.reserve(m_total);
+        m_sequence.records.reserve(m_sequence.records.size() + m_total);
         pimg::run(options.parallel, m_mesh.tiles.size(), [&](std::size_t i) { start_tile(m_mesh, m_mesh.tiles[i]); });
     }
 
@@ -58,9 +64,9 @@ private:
 
     WorkingMesh m_mesh;
     const SimplifyOptions& m_options;
-    Index m_total;
-    float m_guard = kGuards[0];
     CollapseSequence m_sequence;
+    Index m_total;  ///< vertices before the first collapse of its own
+    float m_guard = kGuards[0];
     std::vector<Index> m_deferred;
     std::vector<TileOutput> m_outputs;
     SimplifyStats m_stats;
@@ -191,10 +197,12 @@ Status check(const Guide& guide)
     return {};
 }
 
-/// One line on what is wrong with a mesh to start from, if there is one.
+/// One line on what is wrong with the options.
 Status check(const SimplifyOptions& options, const Hierarchy& shape)
 {
     const InitialMesh& start = options.start;
+    if (!(options.bisection >= 0.0f) || !std::isfinite(options.bisection))
+        return Status::failure("bisection: expected a cost from 0 up");
     if (start.vertices() == 0)
         return {};
     if (options.metric != Metric::volume)
@@ -207,6 +215,17 @@ Status check(const SimplifyOptions& options, const Hierarchy& shape)
     return {};
 }
 
+/// The mesh to collapse, and in `bisected` what was collapsed on the way to it.
+WorkingMesh initial_mesh(const Guide& on_mesh, const SimplifyOptions& options, CollapseSequence& bisected)
+{
+    if (options.start.vertices() > 0)
+        return WorkingMesh(on_mesh, options.start);
+    if (!(options.bisection > 0.0f))
+        return WorkingMesh(on_mesh, options.parallel);
+    const Bisection bisection(on_mesh, { options.bisection, kMostBisected }, options.parallel, bisected);
+    return WorkingMesh(on_mesh, bisection, options.parallel);
+}
+
 /// Collapses all there is to collapse; the memory of the mesh's twins is given back on the way.
 Status collapse(const Guide& on_mesh, SimplifyOptions& options, CollapseSequence& sequence, SimplifyStats& stats)
 {
@@ -215,9 +234,8 @@ Status collapse(const Guide& on_mesh, SimplifyOptions& options, CollapseSequence
         const auto metric = options.metric == Metric::quadric ? quadric_metric(mesh) : exact_metric(mesh);
         return collapse_all(mesh, *metric, options.progress, sequence, stats) ? Status() : Status::failure(kStopped);
     }
-    const bool from_every_pixel = options.start.vertices() == 0;
-    Simplifier simplifier(
-        from_every_pixel ? WorkingMesh(on_mesh, options.parallel) : WorkingMesh(on_mesh, options.start), options);
+    CollapseSequence bisected;
+    Simplifier simplifier(initial_mesh(on_mesh, options, bisected), std::move(bisected), options);
     std::vector<Index>().swap(options.start.twins);
     if (!simplifier.run())
         return Status::failure(kStopped);

@@ -73,6 +73,30 @@ WorkingMesh::WorkingMesh(const Guide& guide, const InitialMesh& initial) : more_
     merge_small_tiles();
 }
 
+WorkingMesh::WorkingMesh(const Guide& guide, const Bisection& bisection, const ParallelFor& parallel)
+    : more_channels(int(guide.channels.size()) - 1)
+{
+    allocate(guide, bisection.left());
+    std::vector<Index> number_of(std::size_t(guide.width) * std::size_t(guide.height), kGhost);
+    number_vertices(guide, bisection, parallel, number_of);
+    in_batches(parallel, number_of.size(), [&](std::size_t pixel) {
+        const Index v = number_of[pixel];
+        if (v == kGhost)
+            return;
+        place(v, guide, Index(pixel), Index(pixel));
+        Node& node = nodes[v];
+        node.z = bisection.value(Index(pixel), 0);
+        for (int c = 0; c < more_channels; ++c)
+            more_of(v)[c].value = bisection.value(Index(pixel), c + 1);
+        node.order = bisection.order(Index(pixel));
+        Index* const ring = rings[v].v.data();
+        node.degree = std::uint8_t(bisection.ring(Index(pixel), ring));
+        for (int j = 0; j < node.degree; ++j)
+            ring[j] = ring[j] == kGhost ? kGhost : number_of[ring[j]];
+    });
+    merge_small_tiles();
+}
+
 void WorkingMesh::allocate(const Guide& guide, std::size_t vertices)
 {
     nodes.extend(vertices);
@@ -100,6 +124,33 @@ void WorkingMesh::number_vertices(int width, int height, const ParallelFor& para
         for (int y = t.y0; y < t.y1; ++y)
             for (int x = t.x0; x < t.x1; ++x)
                 number_of[std::size_t(y) * std::size_t(width) + std::size_t(x)] = number++;
+    });
+}
+
+void WorkingMesh::number_vertices(const Guide& guide, const Bisection& bisection, const ParallelFor& parallel,
+                                  std::vector<Index>& number_of)
+{
+    std::vector<PixelTile> pixels;
+    for_tiles(guide.width, guide.height, [&](const PixelTile& t) { pixels.push_back(t); });
+    const auto for_left = [&](const PixelTile& t, auto&& visit) {
+        for (int y = t.y0; y < t.y1; ++y)
+            for (int x = t.x0; x < t.x1; ++x)
+                if (const Index pixel = Index(y) * Index(guide.width) + Index(x); bisection.is_left(pixel))
+                    visit(pixel);
+    };
+    tiles.resize(pixels.size());
+    run(parallel, tiles.size(), [&](std::size_t i) {
+        tiles[i] = { 0, 0, pixels[i].x, pixels[i].y };
+        for_left(pixels[i], [&](Index) { ++tiles[i].last; });
+    });
+    Index next = 0;
+    for (Tile& tile : tiles) {
+        tile.first = next;
+        tile.last = next += tile.last;
+    }
+    run(parallel, tiles.size(), [&](std::size_t i) {
+        Index number = tiles[i].first;
+        for_left(pixels[i], [&](Index pixel) { number_of[pixel] = number++; });
     });
 }
 

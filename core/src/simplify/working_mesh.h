@@ -11,6 +11,7 @@
 #include <pimg/sampling.h>
 #include <pimg/simplify.h>
 
+#include "simplify/bisection.h"
 #include "simplify/collapse_cost.h"
 #include <pimg/detail/flat_array.h>
 
@@ -79,6 +80,9 @@ public:
     /// pixel.
     WorkingMesh(const Guide& guide, const InitialMesh& initial);
 
+    /// What bisection left of the mesh of all pixels.
+    WorkingMesh(const Guide& guide, const Bisection& bisection, const ParallelFor& parallel);
+
     const MoreOfNode* more_of(Index v) const { return more.data() + std::size_t(v) * std::size_t(more_channels); }
     MoreOfNode* more_of(Index v) { return more.data() + std::size_t(v) * std::size_t(more_channels); }
 
@@ -106,6 +110,8 @@ private:
     }
     void allocate(const Guide& guide, std::size_t vertices);
     void number_vertices(int width, int height, const ParallelFor& parallel, std::vector<Index>& number_of);
+    void number_vertices(const Guide& guide, const Bisection& bisection, const ParallelFor& parallel,
+                         std::vector<Index>& number_of);
     void number_vertices(const InitialMesh& initial, std::vector<Index>& number_of);
     void place(Index v, const Guide& guide, Index pixel, Index name);
     void build_rows(const Guide& guide, int first, int last, const std::vector<Index>& number_of);

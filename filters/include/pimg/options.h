@@ -100,7 +100,11 @@ struct BuildOptions {
     /// Which sides meet, so that filters leave no seam: none; x for panoramas in latitude and longitude, whose left and
     /// right sides meet; xy for tiles. Empty: x if the metadata say that the picture is such a panorama, else none.
     std::string wrap;
-    std::string mesh = "full";         ///< full: one vertex per pixel; adaptive: fewer, and a residual (section 6)
+    /// auto: one vertex per pixel; collapses that hardly change the picture are chosen by bisection, which is fast
+    /// (SimplifyOptions::bisection), all others as with full. full: every collapse is the cheapest (section 3.2).
+    /// adaptive: fewer vertices, and a residual (section 6). Whichever it is, the picture is represented exactly. With
+    /// another metric than volume, auto is full.
+    std::string mesh = "auto";
     float density = 0.33f;             ///< share of the pixels that are vertices of an adaptive mesh
     std::string control = "gradient";  ///< what it follows: gradient, curvature, or the brightness of an image file
 };
