@@ -263,6 +263,7 @@ bool PimgOutput::build_hierarchy(ProgressiveImage& progressive)
     }
     BuildOptions build = m_build;
     build.wrap = "none";  // a stored mesh has no margins; readers build that of a panorama anew
+    build.preview = false;
     if (progressive.build(picture, build, threads()))
         return true;
     errorfmt("pimg: {}", progressive.error());

@@ -293,11 +293,13 @@ bool Session::filter(Picture& picture, const Filter& run, Meaning meaning)
         return fail(result->has_error() ? result->geterror() : "failed");
     picture.pixels = result;
     picture.rendition = {};
-    // The options of the first build hold for the next one, except the colour space, which the result states itself.
+    // The options of the first build hold for the next one, except the colour space, which the result states itself, and
+    // that a quick look was wanted.
     const pimg::BuildOptions options = picture.hierarchy->options;
     picture.hierarchy = std::make_shared<LazyHierarchy>();
     picture.hierarchy->options = options;
     picture.hierarchy->options.incolorspace.clear();
+    picture.hierarchy->options.preview = false;
     if (meaning == Meaning::display_linear)
         picture.linear_light = true;
     picture.is_gain = meaning == Meaning::gain;

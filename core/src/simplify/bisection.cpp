@@ -157,8 +157,8 @@ void Bisection::find_costs_of_centres(const Guide& guide, int step, int y)
         if (!is_inside(x + step, y + step))
             continue;
         const int dy = falls(x - step, y - step, 2 * step) ? step : -step;
-        float least = removal_cost(guide, u, pixel(x - step, y - dy), pixel(x + step, y + dy),
-                                   float(2 * step * step), float(2 * step * step));
+        float least = removal_cost(guide, u, pixel(x - step, y - dy), pixel(x + step, y + dy), float(2 * step * step),
+                                   float(2 * step * step));
         for (const Index below : { pixel(x - step, y), pixel(x + step, y), pixel(x, y - step), pixel(x, y + step) })
             least = std::max(least, m_costs[below]);
         m_costs[u] = least;
@@ -239,8 +239,9 @@ Bisection::Removal Bisection::removal_of(Index u) const
     const std::int64_t offset = step * m_offset[std::size_t(direction)];
     const Point of_u { x * kSubpixels, y * kSubpixels };
     const Point of_t { (x - kDx[direction] * step) * kSubpixels, (y - kDy[direction] * step) * kSubpixels };
-    return { Index(u - offset), u, Index(u + offset), of_t, of_u, direction,
-             float(is_centre ? 2 * step * step : step * step) };
+    return {
+        Index(u - offset), u, Index(u + offset), of_t, of_u, direction, float(is_centre ? 2 * step * step : step * step)
+    };
 }
 
 bool Bisection::leads_outside(Index pixel, int direction) const
@@ -289,8 +290,8 @@ void Bisection::remove(const Removal& r, CollapseRecord& record, SplitPair* more
     record.split = { r.t, vl, vr, r.of_t, r.of_u };
     record.u = r.u;
     // t is where s is. u is half way to b; of the two faces there, the first in ring order predicts it.
-    record.stencil = { r.t, ring[face], ring[face + 1], vl != kGhost ? vl : r.b, vl != kGhost ? r.b : vr, 0.0f, 0.0f, 0.0f,
-                       0.0f };
+    record.stencil = { r.t,  ring[face], ring[face + 1], vl != kGhost ? vl : r.b, vl != kGhost ? r.b : vr, 0.0f, 0.0f,
+                       0.0f, 0.0f };
     (vl != kGhost ? record.stencil.wbu : record.stencil.wau) = 0.5f;
     record.zt = t.z;
     record.zu = u.z;

@@ -46,7 +46,8 @@ public:
     Index left() const { return m_left; }
     float value(Index pixel, int channel) const
     {
-        return channel == 0 ? m_spots[pixel].z : m_more[std::size_t(pixel) * m_more_channels + std::size_t(channel) - 1];
+        return channel == 0 ? m_spots[pixel].z
+                            : m_more[std::size_t(pixel) * m_more_channels + std::size_t(channel) - 1];
     }
     /// The highest cost of the collapses that moved this vertex or its neighbours.
     float order(Index pixel) const { return m_spots[pixel].order; }

@@ -105,6 +105,9 @@ struct BuildOptions {
     /// adaptive: fewer vertices, and a residual (section 6). Whichever it is, the picture is represented exactly. With
     /// another metric than volume, auto is full.
     std::string mesh = "auto";
+    /// For a quick look at hdr_compress: the hierarchy is that of a reduced picture of at most half a million pixels, and what it
+    /// gives is enlarged with the full picture as guide. Other filters refuse such an image. `guide` is log.
+    bool preview = false;
     float density = 0.33f;             ///< share of the pixels that are vertices of an adaptive mesh
     std::string control = "gradient";  ///< what it follows: gradient, curvature, or the brightness of an image file
 };

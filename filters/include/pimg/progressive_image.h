@@ -73,7 +73,8 @@ public:
                int nthreads = 0);
 
     /// What a file can store: this, or if sides of the picture meet, the same built without margins. `src` is the picture
-    /// this was built from. Not initialized(), with an error(), if building fails.
+    /// this was built from. Not initialized(), with an error(), if building fails or if this is a
+    /// preview.
     ProgressiveImage unwrapped(const OIIO::ImageBuf& src, int nthreads = 0) const;
 
     /// Whether build() or adopt() has succeeded.
@@ -83,7 +84,7 @@ public:
 
     // The following need an initialized() object.
 
-    const Hierarchy& hierarchy() const;
+    const Hierarchy& hierarchy() const;             ///< of a preview, that of the reduced picture
     const std::vector<Bands>& guide_bands() const;  ///< of each channel of the guide
     /// The picture as float, own memory, NaN and Inf replaced, with the margins of BuildOptions::wrap: the pixels of the
     /// hierarchy.

@@ -220,6 +220,7 @@ const std::vector<Option<BuildOptions>>& option_table<BuildOptions>()
         { &T::control,
           { "control", 0, 0, "", "", "what density follows: gradient, curvature, or an image's brightness", "", "",
             FileUse::read } },
+        { &T::preview, { "preview", 0, 1, "", "", "for a quick look at hdr_compress, builds from a reduced picture" } },
     };
     return table;
 }

@@ -18,11 +18,17 @@ bool is_empty(const OIIO::ROI& roi)
     return roi.xbegin >= roi.xend || roi.ybegin >= roi.yend || roi.zbegin >= roi.zend || roi.chbegin >= roi.chend;
 }
 
-bool is_built(OIIO::ImageBuf& dst, const ProgressiveImage& src)
+bool is_built(OIIO::ImageBuf& dst, const ProgressiveImage& src, Previews previews)
 {
-    if (!src.initialized())
+    if (!src.initialized()) {
         set_error(dst, src.error().empty() ? "the progressive image has not been built" : src.error());
-    return src.initialized();
+        return false;
+    }
+    if (src.data()->small != nullptr && previews == Previews::refused) {
+        set_error(dst, "preview: expected hdr_compress; other filters need an image that was built without preview");
+        return false;
+    }
+    return true;
 }
 
 /// prepare() with the spec of a destination that does not exist yet.
@@ -48,9 +54,9 @@ bool prepare_as(OIIO::ImageBuf& dst, ProgressiveImage::Data& data, OIIO::ROI& ro
 
 }  // namespace
 
-bool prepare(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, ResultType type)
+bool prepare(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, ResultType type, Previews previews)
 {
-    if (!is_built(dst, src))
+    if (!is_built(dst, src, previews))
         return false;
     OIIO::ImageSpec spec = src.data()->picture;
     if (type == ResultType::full_float || (type == ResultType::floating && !spec.format.is_floating_point()))
@@ -59,9 +65,9 @@ bool prepare(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, R
 }
 
 bool prepare_single(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, const char* name,
-                    const OIIO::TypeDesc& type)
+                    const OIIO::TypeDesc& type, Previews previews)
 {
-    if (!is_built(dst, src))
+    if (!is_built(dst, src, previews))
         return false;
     ProgressiveImage::Data& data = *src.data();
     OIIO::ImageSpec spec = data.picture;

@@ -27,15 +27,19 @@ enum class ResultType {
     full_float  ///< float
 };
 
+/// Whether a filter can work on previews (BuildOptions::preview).
+enum class Previews { refused, taken };
+
 /// Checks the source and the region, and initializes `dst` as OpenImageIO's own functions do. On failure returns false
 /// with an error in `dst`. Afterwards `roi` lies within both pictures; it may be empty, and then there is nothing to
 /// do.
-bool prepare(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, ResultType type);
+bool prepare(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, ResultType type,
+             Previews previews = Previews::refused);
 
 /// The same for results of one channel called `name`: a new `dst` has no other, and only the first of an old one
 /// changes. UNKNOWN: the pixel type of the source.
 bool prepare_single(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::ROI& roi, const char* name,
-                    const OIIO::TypeDesc& type);
+                    const OIIO::TypeDesc& type, Previews previews = Previews::refused);
 
 /// Pixels [xbegin, xend) of row y, in the source's coordinates.
 struct RowSpan {

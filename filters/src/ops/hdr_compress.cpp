@@ -17,6 +17,7 @@
 #include "ops/zone_curve.h"
 #include "source/gains/contrast_envelope.h"
 #include "source/overview.h"
+#include "source/preview.h"
 
 namespace pimg {
 namespace ImageBufAlgo {
@@ -130,16 +131,12 @@ void raise_zones(const std::vector<float>& scene, const ParallelFor& parallel, C
     });
 }
 
-bool compress_luminance(ProgressiveImage::Data& data, const ParallelFor& parallel, Compressed& c, std::string& error)
+/// Fills in the samples of `c` by the hierarchy of `data`, whose log luminance is that of `c`.
+void compress_details(ProgressiveImage::Data& data, const ParallelFor& parallel, Compressed& c)
 {
-    HdrCompressOptions& options = c.options;
-    const LogBands* log = ZoneCurve::make(options, c.zones, error) ? data.log_bands(parallel, error) : nullptr;
-    if (log == nullptr)
-        return false;
-    c.luminance = &log->luminance;
-    c.noise = data.noise(parallel).times(options.denoise);
-    if (!resolve(options, log->luminance.reference, [&] { return data.overview(parallel, error); }))
-        return false;
+    const HdrCompressOptions& options = c.options;
+    std::string error;
+    const LogBands& log = *data.log_bands(parallel, error);  // found before
     const DetailGain gain = gain_of(options);
     EnvelopeOptions how = envelope_of(options, data.noise(parallel));
     const SizeGains sizes { options.fine, options.medium, options.coarse };
@@ -151,9 +148,33 @@ bool compress_luminance(ProgressiveImage::Data& data, const ParallelFor& paralle
     compress(*planned, gain, sizes, *envelope, parallel, (*values).data());
     planned->plan.scatter(data.hierarchy, (*values).data(), (*c.samples).data(), parallel);
     crop_to_picture(data.hierarchy, *c.samples);
-    compress_residual(data.hierarchy, *log->bands, gain, options.coherence, log->luminance.guide.samples, *c.samples);
+    compress_residual(data.hierarchy, *log.bands, gain, options.coherence, log.luminance.guide.samples, *c.samples);
     if (!c.zones.flat())
         raise_zones(data.luminance_without_texture(parallel), parallel, c);
+}
+
+bool compress_luminance(ProgressiveImage::Data& data, const ParallelFor& parallel, Compressed& c, std::string& error)
+{
+    HdrCompressOptions& options = c.options;
+    const LogBands* log = ZoneCurve::make(options, c.zones, error) ? data.log_bands(parallel, error) : nullptr;
+    if (log == nullptr)
+        return false;
+    c.luminance = &log->luminance;
+    c.noise = data.noise(parallel).times(options.denoise);
+    if (!resolve(options, log->luminance.reference, [&] { return data.overview(parallel, error); }))
+        return false;
+    if (data.small == nullptr) {
+        compress_details(data, parallel, c);
+        return true;
+    }
+    const LogBands& log_of_small = *data.small->log_bands(parallel, error);
+    Compressed small {
+        options, c.zones, &log_of_small.luminance, { *data.small, data.small->hierarchy.mesh_pixels() }, {}
+    };
+    compress_details(*data.small, parallel, small);
+    // Of the details that the reduced picture lacks, some are noise and some are texture.
+    const float usual = std::sqrt(options.s0 * std::max(options.detail, options.s0));
+    enlarge(log_of_small.luminance.guide, *small.samples, data.step, log->luminance.guide, usual, parallel, *c.samples);
     return true;
 }
 
@@ -326,8 +347,8 @@ bool on_hierarchy::hdr_compress(ImageBuf& dst, const ProgressiveImage& src, cons
             return false;
         }
         const bool is_gain = options.output == "gain";
-        if (!(is_gain ? prepare_single(dst, src, roi, "gain", OIIO::TypeDesc::FLOAT)
-                      : prepare(dst, src, roi, ResultType::full_float)))
+        if (!(is_gain ? prepare_single(dst, src, roi, "gain", OIIO::TypeDesc::FLOAT, Previews::taken)
+                      : prepare(dst, src, roi, ResultType::full_float, Previews::taken)))
             return false;
         ProgressiveImage::Data& data = *src.data();
         const ParallelFor parallel = pool_loop(nthreads);

@@ -24,9 +24,12 @@ namespace pimg {
 
 namespace {
 
-/// What collapses cost that mesh=auto leaves to bisection: that of a pixel which is 2 guide units, codes of an 8-bit
-/// picture, from what its neighbours predict. Twice or half of it takes 0.8 or 1.2 times as long (docs/performance.md).
-constexpr float kBisection = 32.0f;
+/// What collapses cost that mesh=auto leaves to bisection: that of a pixel which is 2 codes of an 8-bit picture from what
+/// its neighbours predict; in log luminance, a unit. Higher limits build faster, but cost quality (docs/internals.md).
+float bisection_limit(const std::string& guide)
+{
+    return guide == "log" ? 8.0f : 32.0f;
+}
 
 /// Seconds since the last call.
 class Stopwatch {
@@ -229,7 +232,7 @@ Status ProgressiveImage::Data::simplify_guide(const std::vector<Raster>& channel
 
     simplify_options.base_faces = Index(options.base);
     if (options.mesh == "auto" && options.metric == "volume")
-        simplify_options.bisection = kBisection;
+        simplify_options.bisection = bisection_limit(stats.guide);
     simplify_options.metric = options.metric == "quadric" ? Metric::quadric
         : options.metric == "exact"                       ? Metric::exact
                                                           : Metric::volume;
@@ -419,6 +422,8 @@ std::size_t ProgressiveImage::Data::memory()
         total += smoothing != nullptr ? smoothing->source.memory() : 0;
     if (m_regions != nullptr)
         total += m_regions->memory();
+    if (small != nullptr)
+        total += small->memory();
     const std::lock_guard<std::mutex> scratch_lock(m_scratch_mutex);
     for (const std::vector<float>& scratch : m_scratch)
         total += scratch.capacity() * sizeof(float);
@@ -435,6 +440,8 @@ bool ProgressiveImage::build(const OIIO::ImageBuf& src, const BuildOptions& opti
 {
     return make(src, options, [&](Data& data, std::string& error) {
         const ParallelFor parallel = pool_loop(nthreads);
+        if (options.preview)
+            return data.build_preview(parallel, progress, error);
         const auto simplify = [&](const auto& guide) {
             return data.build_hierarchy(guide, parallel, progress);
         };
@@ -447,6 +454,8 @@ bool ProgressiveImage::adopt(const OIIO::ImageBuf& src, const StoredHierarchy& s
 {
     return make(src, options, [&](Data& data, std::string& error) {
         const ParallelFor parallel = pool_loop(nthreads);
+        if (options.preview)
+            return data.build_preview(parallel, {}, error);
         const auto adopt = [&](const auto& guide) {
             return data.wrap ? data.build_hierarchy(guide, parallel, {}) : data.adopt(guide, stored);
         };
@@ -456,6 +465,11 @@ bool ProgressiveImage::adopt(const OIIO::ImageBuf& src, const StoredHierarchy& s
 
 ProgressiveImage ProgressiveImage::unwrapped(const OIIO::ImageBuf& src, int nthreads) const
 {
+    if (initialized() && m_data->small != nullptr) {
+        ProgressiveImage none;
+        none.m_error = "preview: expected an image built without it, since a file stores its whole hierarchy";
+        return none;
+    }
     if (!initialized() || !m_data->wrap)
         return *this;
     BuildOptions options = m_data->options;
@@ -477,6 +491,8 @@ bool ProgressiveImage::make(const OIIO::ImageBuf& src, const BuildOptions& optio
             data->stats.read_seconds = watch.lap();
             if (make_hierarchy(*data, m_error))
                 m_data = std::move(data);
+            if (options.preview && m_data != nullptr)
+                m_data->stats.simplify_seconds = watch.lap();
         }
     } catch (const std::bad_alloc&) {
         m_error = "not enough memory";
@@ -490,11 +506,11 @@ bool ProgressiveImage::make(const OIIO::ImageBuf& src, const BuildOptions& optio
 
 const Hierarchy& ProgressiveImage::hierarchy() const
 {
-    return m_data->hierarchy;
+    return m_data->small != nullptr ? m_data->small->hierarchy : m_data->hierarchy;
 }
 const std::vector<Bands>& ProgressiveImage::guide_bands() const
 {
-    return m_data->guide_bands;
+    return m_data->small != nullptr ? m_data->small->guide_bands : m_data->guide_bands;
 }
 const OIIO::ImageBuf& ProgressiveImage::source() const
 {

@@ -53,6 +53,11 @@ struct ProgressiveImage::Data {
     std::vector<Bands> guide_bands;
     BuildStats stats;
 
+    /// Of a preview, the reduced log luminance with its hierarchy, and how many pixels across and down are one of its. The
+    /// hierarchy here has no splits then.
+    std::unique_ptr<Data> small;
+    int step = 1;
+
     /// These fill a cache at the first call. Null, with an error, only if the hierarchy is damaged.
     const LogBands* log_bands(const ParallelFor& parallel, std::string& error);
     const ChannelBands* channel_bands(const ParallelFor& parallel, std::string& error);
@@ -104,6 +109,7 @@ struct ProgressiveImage::Data {
     Status simplify_guide(const std::vector<Raster>& guide, const ParallelFor& parallel, const Progress& progress);
     Status build_hierarchy(const std::vector<Raster>& guide, const ParallelFor& parallel, const Progress& progress);
     Status adopt(const std::vector<Raster>& guide, const StoredHierarchy& stored);
+    bool build_preview(const ParallelFor& parallel, const Progress& progress, std::string& error);
     bool find_initial_mesh(const Guide& guide, const ParallelFor& parallel, const Progress& progress, InitialMesh& mesh,
                            std::string& error) const;
 

@@ -140,7 +140,8 @@ TEST(Bisection, LeavesEdgesAlone)
 TEST(Bisection, ChannelsShareTheMesh)
 {
     const Picture a = landscape(90, 70);
-    const Picture b = test::make("wave", 90, 70, [](int x, int y) { return 100.0f + 50.0f * std::sin(float(x - y) * 0.2f); });
+    const Picture b =
+        test::make("wave", 90, 70, [](int x, int y) { return 100.0f + 50.0f * std::sin(float(x - y) * 0.2f); });
     const Built built = build(Guide { 90, 70, { { a.samples.data(), 1.0f }, { b.samples.data(), 0.5f } } }, kLimit);
     EXPECT_TRUE(validate(built.hierarchy).ok());
     std::vector<Bands> again;
@@ -160,11 +161,13 @@ TEST(Bisection, ThreadsDoNotChangeABit)
     for (int threads : { 2, 5 }) {
         const Built many = build(guide, kLimit, test::threads(threads));
         ASSERT_EQ(one.hierarchy.splits.size(), many.hierarchy.splits.size());
-        EXPECT_EQ(0, std::memcmp(one.hierarchy.splits.data(), many.hierarchy.splits.data(),
-                                 one.hierarchy.splits.size() * sizeof(Split)));
+        EXPECT_EQ(0,
+                  std::memcmp(one.hierarchy.splits.data(), many.hierarchy.splits.data(),
+                              one.hierarchy.splits.size() * sizeof(Split)));
         EXPECT_EQ(one.hierarchy.costs, many.hierarchy.costs);
-        EXPECT_EQ(0, std::memcmp(one.bands[0].details.data(), many.bands[0].details.data(),
-                                 one.bands[0].details.size() * sizeof(Detail)));
+        EXPECT_EQ(0,
+                  std::memcmp(one.bands[0].details.data(), many.bands[0].details.data(),
+                              one.bands[0].details.size() * sizeof(Detail)));
     }
 }
 
