@@ -190,12 +190,11 @@ Status look_from_afar(const LogLuminance& luminance, const Wrap& wrap, const Par
 
     SimplifyOptions options;
     options.parallel = parallel;
-    std::vector<Bands> bands;
-    const Status status =
-        simplify({ means.width, means.height, { { means.samples.data() } } }, options, overview.hierarchy, bands);
+    const Status status = simplify({ means.width, means.height, { { means.samples.data() } } }, options,
+                                   overview.hierarchy, overview.log_bands);
     if (status)
         overview.bands = std::make_unique<PlannedBands>(std::make_shared<SweepPlan>(overview.hierarchy, parallel),
-                                                        bands[0], parallel);
+                                                        overview.log_bands[0], parallel);
     return status;
 }
 

@@ -21,7 +21,8 @@ struct Overview {
     std::vector<float> weight;  ///< how much a cell says of the scene: little where nothing is but one tone and noise
     float range = 0.0f;         ///< dynamic range of the lit cells, in guide units
     Hierarchy hierarchy;        ///< of the cells
-    std::unique_ptr<PlannedBands> bands;
+    std::vector<Bands> log_bands;
+    std::unique_ptr<PlannedBands> bands;  ///< these, to be swept
 };
 
 Status look_from_afar(const LogLuminance& luminance, const Wrap& wrap, const ParallelFor& parallel, Overview& overview);

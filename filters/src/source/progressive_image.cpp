@@ -411,7 +411,7 @@ std::size_t ProgressiveImage::Data::memory()
     if (m_plan != nullptr)
         total += m_plan->memory();
     if (m_planned_log != nullptr)
-        total += m_planned_log->details.capacity() * sizeof(Detail);
+        total += m_planned_log->ordered.capacity() * sizeof(Detail);
     if (m_planned_channels != nullptr)
         for (const std::vector<Detail>& details : m_planned_channels->ordered)
             total += details.capacity() * sizeof(Detail);

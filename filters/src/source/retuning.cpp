@@ -72,9 +72,9 @@ std::shared_ptr<const PlannedChannels> ProgressiveImage::Data::planned_channels(
     auto made = std::make_shared<PlannedChannels>();
     made->plan = planned ? plan(parallel) : std::make_shared<const SweepPlan>(SweepPlan::unplanned(hierarchy));
     for (const Bands& bands : channels->bands) {
-        if (planned)
+        if (made->plan->is_planned())
             made->ordered.push_back(made->plan->in_order(bands.details, parallel));
-        made->details.push_back(planned ? made->ordered.back().data() : bands.details.data());
+        made->details.push_back(made->plan->is_planned() ? made->ordered.back().data() : bands.details.data());
     }
     m_planned_channels = std::move(made);
     return m_planned_channels;

@@ -37,6 +37,7 @@ public:
     /// Sweeps in the hierarchy's own order, without the time and memory that making a plan takes: right when there are
     /// only one or two sweeps. The hierarchy must outlive the result.
     static SweepPlan unplanned(const Hierarchy& hierarchy);
+    bool is_planned() const { return m_unplanned == nullptr; }
 
     Level levels() const { return m_levels; }
     PlannedSplit split(Level i) const;

@@ -13,7 +13,8 @@ PlannedBands::PlannedBands(std::shared_ptr<const SweepPlan> made, const Bands& b
     : shared(std::move(made)),
       plan(*shared),
       base(bands.base),
-      details(plan.in_order(bands.details, parallel))
+      ordered(plan.is_planned() ? plan.in_order(bands.details, parallel) : std::vector<Detail>()),
+      details(plan.is_planned() ? ordered.data() : bands.details.data())
 {
 }
 

@@ -14,14 +14,18 @@
 
 namespace pimg {
 
-/// Bands ready to be swept again and again: details in the order of a plan.
+/// Bands ready to be swept again and again: details in the order of a plan. If that is the hierarchy's, they are those of
+/// `bands`, which must live as long.
 struct PlannedBands {
     std::shared_ptr<const SweepPlan> shared;
     const SweepPlan& plan;
     std::vector<float> base;
-    std::vector<Detail> details;
+    std::vector<Detail> ordered;  ///< empty if the order is the hierarchy's
+    const Detail* details;
 
     PlannedBands(std::shared_ptr<const SweepPlan> plan, const Bands& bands, const ParallelFor& parallel);
+    PlannedBands(const PlannedBands&) = delete;
+    PlannedBands& operator=(const PlannedBands&) = delete;
 };
 
 /// What decides the gain of every split, in the order of the plan.

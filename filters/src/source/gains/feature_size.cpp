@@ -49,9 +49,8 @@ std::vector<float> pixels_of_splits(const SweepPlan& plan)
     return smaller;
 }
 
-std::vector<FeatureSize> feature_sizes(const SweepPlan& plan, const std::vector<float>& base,
-                                       const std::vector<Detail>& details, float diagonal, float range,
-                                       const ParallelFor& parallel)
+std::vector<FeatureSize> feature_sizes(const SweepPlan& plan, const std::vector<float>& base, const Detail* details,
+                                       float diagonal, float range, const ParallelFor& parallel)
 {
     const std::vector<float> pixels = pixels_of_splits(plan);
     const float whole = std::max(diagonal, kLeastDiagonal);

@@ -30,9 +30,8 @@ struct SizeGains {
 /// The size of the features of every split of a plan, by the pixels that its vertices stand for, in a picture with that
 /// diagonal and with a dynamic range of `range` guide units. What has the contrast of a large edge, whose corrections come
 /// in all sizes, is left as it is: else there would be halos.
-std::vector<FeatureSize> feature_sizes(const SweepPlan& plan, const std::vector<float>& base,
-                                       const std::vector<Detail>& details, float diagonal, float range,
-                                       const ParallelFor& parallel);
+std::vector<FeatureSize> feature_sizes(const SweepPlan& plan, const std::vector<float>& base, const Detail* details,
+                                       float diagonal, float range, const ParallelFor& parallel);
 
 /// For each split, how many pixels the smaller of its two vertices stands for.
 std::vector<float> pixels_of_splits(const SweepPlan& plan);
