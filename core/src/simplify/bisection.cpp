@@ -231,11 +231,12 @@ void Bisection::lay_out(const Guide& guide, const ParallelFor& parallel)
     });
 }
 
+/// t is the end whose pixel comes first, as in files, so that what is read back has the same stencils.
 Bisection::Removal Bisection::removal_of(Index u) const
 {
     const int x = int(u % Index(m_width)), y = int(u / Index(m_width)), step = step_of(x, y);
     const bool is_centre = (x & step) && (y & step);
-    const int direction = is_centre ? falls(x - step, y - step, 2 * step) ? 1 : 7 : x & step ? 0 : 2;
+    const int direction = is_centre ? falls(x - step, y - step, 2 * step) ? 1 : 3 : x & step ? 0 : 2;
     const std::int64_t offset = step * m_offset[std::size_t(direction)];
     const Point of_u { x * kSubpixels, y * kSubpixels };
     const Point of_t { (x - kDx[direction] * step) * kSubpixels, (y - kDy[direction] * step) * kSubpixels };
