@@ -53,8 +53,12 @@ void measure(const PlannedBands& bands, const EnvelopeOptions& options, const st
         plan.sweep(first, last, values.data(), [&](Level i) {
             const PlannedSplit k = plan.split(i);
             const Detail d = bands.details[i];
-            const auto [least, most] =
-                std::minmax({ values[k.s], values[k.at], values[k.bt], values[k.au], values[k.bu] });
+            // Vertices without weight are those of one of several faces that would do.
+            const auto used = [&](Index v, float weight) {
+                return values[weight != 0.0f ? v : k.s];
+            };
+            const auto [least, most] = std::minmax(
+                { values[k.s], used(k.at, k.wat), used(k.bt, k.wbt), used(k.au, k.wau), used(k.bu, k.wbu) });
             const float own = std::max({ std::fabs(d.t), std::fabs(d.u), most - least });
             const float s = contrast[k.s];
             const float t = s + k.wat * (contrast[k.at] - s) + k.wbt * (contrast[k.bt] - s);
