@@ -215,7 +215,7 @@ const std::vector<Option<BuildOptions>>& option_table<BuildOptions>()
             "sides that meet: x, a lat-long panorama; xy, a tile; else as metadata say" } },
         { &T::mesh,
           { "mesh", 0, 0, "", "auto|full|adaptive",
-            "auto: fast where the finest collapses hardly matter; full: the paper's; adaptive: fewer vertices" } },
+            "auto: full, but quick about the finest; adaptive: fewer vertices" } },
         { &T::density, { "density", 1e-6, 1, "", "", "share of the pixels that are vertices of an adaptive mesh" } },
         { &T::control,
           { "control", 0, 0, "", "", "what density follows: gradient, curvature, or an image's brightness", "", "",
