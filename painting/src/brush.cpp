@@ -10,7 +10,7 @@ namespace pimg {
 
 namespace {
 
-// The masks are our own drawings: all numbers here and in the four functions below, such as where hairs start, how
+// The masks are our own drawings: all numbers here and in the six functions below, such as where hairs start, how
 // ragged ends are and how high the paint stands, were chosen by eye. Lengths along a stroke are in columns of the
 // finest mask; lengths across it are shares of half its width. Heights and alphas are 0 to 1.
 
@@ -88,6 +88,28 @@ Paint knife_paint(Place p, std::uint32_t seed)
     return { alpha, std::clamp(0.4f + 0.1f * scrape + 0.35f * std::min(ridge, 1.0f), 0.0f, 1.0f) };
 }
 
+/// A stick of chalk, pressed most in the middle. The tooth of the canvas does the rest.
+Paint chalk_paint(Place p, std::uint32_t seed)
+{
+    const float x = std::max(0.0f, 1.0f - std::min(p.along, p.to_end()) / kCap);
+    const float r = std::sqrt(x * x + p.across * p.across);
+    const float streak = noise(p.along / 50.0f, p.across * 6.0f, seed);
+    return { std::clamp((0.8f + 0.2f * streak) * (1.0f - smooth_step(0.55f, 1.0f, r)), 0.0f, 1.0f),
+             0.5f + 0.4f * noise(p.along / 40.0f, p.across * 9.0f, seed + 1) };
+}
+
+/// Water with pigment, which settles in the grain of the paper and dries to a dark rim.
+Paint wash_paint(Place p, std::uint32_t seed)
+{
+    const float x = std::max(0.0f, 1.0f - std::min(p.along, p.to_end()) / kCap);
+    const float bay = 0.12f * noise(p.along / 20.0f, p.across * 2.0f, seed);
+    const float r = std::sqrt(x * x + p.across * p.across) + bay;
+    const float cloud = noise(p.along / 30.0f, p.across * 2.5f, seed + 1);
+    const float rim = smooth_step(0.62f, 0.84f, r);
+    return { (1.0f - smooth_step(0.84f, 0.92f, r)) * (0.72f + 0.12f * cloud + 0.2f * rim),
+             std::clamp(0.6f - 0.25f * rim - 0.15f * cloud, 0.0f, 1.0f) };
+}
+
 std::vector<Paint> draw(Paint (*paint)(Place, std::uint32_t), std::uint32_t seed)
 {
     std::vector<Paint> mask;
@@ -106,16 +128,20 @@ Brush Brush::named(const std::string& name)
         const char* name;
         Paint (*paint)(Place, std::uint32_t);
         float grain;  ///< by eye; without any, frames of a film change less but paint spills more (internals.md)
+        float tooth;
         int variants;
     };
-    static constexpr Kind kKinds[] = { { "round", round_paint, 0.0f, 1 },
-                                       { "flat", flat_paint, 0.15f, kVariants },
-                                       { "bristle", bristle_paint, 0.16f, kVariants },
-                                       { "knife", knife_paint, 0.12f, kVariants } };
+    static constexpr Kind kKinds[] = { { "round", round_paint, 0.0f, 0.0f, 1 },
+                                       { "flat", flat_paint, 0.15f, 0.0f, kVariants },
+                                       { "bristle", bristle_paint, 0.16f, 0.0f, kVariants },
+                                       { "knife", knife_paint, 0.12f, 0.0f, kVariants },
+                                       { "chalk", chalk_paint, 0.16f, 0.9f, kVariants },
+                                       { "wash", wash_paint, 0.3f, 0.0f, kVariants } };
     Brush brush;
     for (const Kind& kind : kKinds)
         if (name == kind.name) {
             brush.m_grain = kind.grain;
+            brush.m_tooth = kind.tooth;
             for (int k = 0; k < kind.variants; ++k)
                 brush.add_variant(draw(kind.paint, scramble(std::uint32_t(k) + 17u)));
         }

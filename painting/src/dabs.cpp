@@ -172,7 +172,7 @@ Status collect_dabs(const Hierarchy& h, const DirectionField& field, const DabOp
     Collector collector(field, options, dabs);
     for (Index v = 0; v < mesh.size(); ++v)
         collector.base(mesh, v);
-    for (Level i = 0; i < h.levels(); ++i) {
+    for (Level i = 0; i < std::min(options.last, h.levels()); ++i) {
         const Split& s = h.splits[i];
         const Index u = mesh.size();
         if (i % kReplayedBetweenStops == 0)

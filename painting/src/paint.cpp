@@ -7,6 +7,7 @@
 #include <pimg/paint.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -54,6 +55,30 @@ Box united(Box a, Box b)
 float reach_of(const Stroke& stroke)
 {
     return 0.7072f * stroke.width + 1.0f;
+}
+
+/// Factors on the channels of a stroke's colour: red, green and blue, if there are three.
+using Tint = std::array<float, 3>;
+
+/// A random change of brightness and, if there are colours, of warmth: what red gains, blue loses.
+Tint tint_of(const Stroke& stroke, float most, bool coloured)
+{
+    constexpr float kWarmth = 0.6f;  // of the change of brightness; by eye, more looks garish
+    const float light = 1.0f + most * signed_unit(scramble(stroke.variation + 3));
+    const float warm = coloured ? kWarmth * most * signed_unit(scramble(stroke.variation + 8)) : 0.0f;
+    return { light * (1.0f + warm), light, light * (1.0f - warm) };
+}
+
+/// Height of the tooth of the canvas at a pixel, 0..1: threads some two pixels wide, crossed and uneven. By eye.
+float tooth_at(int x, int y)
+{
+    constexpr float kThread = 0.42f;  // cycles per pixel
+    const auto bits = [](int a, int b) {
+        return signed_unit(scramble(std::uint32_t(a) + scramble(std::uint32_t(b) + 91u)));
+    };
+    const float knot = 0.5f * (bits(x, y) + 0.5f * (bits(x / 2, y / 2) + bits(x / 5, y / 5)));
+    const float weave = std::fabs(2.0f * (kThread * float(x + y) - std::floor(kThread * float(x + y))) - 1.0f);
+    return std::clamp(0.5f + 0.55f * knot + 0.3f * (weave - 0.5f), 0.0f, 1.0f);
 }
 
 /// Keeps paint on its side of an edge.
@@ -106,6 +131,10 @@ public:
     {
         std::fill(std::begin(m_distance), std::end(m_distance), kFar);
         std::fill(std::begin(m_bare), std::end(m_bare), 1.0f);
+        if (brush.tooth() > 0.0f)
+            m_tooth.resize(std::size_t(kTile) * kTile);
+        for (std::size_t i = 0; i < m_tooth.size(); ++i)
+            m_tooth[i] = tooth_at(tile.x0 + int(i) % kTile, tile.y0 + int(i) / kTile);
     }
 
     void paint(const Strokes& strokes, Index i, const std::vector<std::vector<float>>& colours);
@@ -116,9 +145,10 @@ public:
 private:
     void measure(Vec2 a, Vec2 b, float start, bool first, bool last, Box box);
     void look_up(const Stroke& stroke, float length, Box box);
+    void rest_on_tooth(Box box);
     void stop_at_edges(const Shade& shade, Box box);
     void note_cover(Box box);
-    void blend(const std::vector<std::vector<float>>& colours, Index i, float brightness, float thickness, Box box);
+    void blend(const std::vector<std::vector<float>>& colours, Index i, const Tint& tint, float thickness, Box box);
     int slot(int x, int y) const { return (y - m_tile.y0) * kTile + (x - m_tile.x0); }
 
     Box m_tile;
@@ -130,6 +160,7 @@ private:
     // then, see look_up(), alpha and height of the paint.
     float m_distance[kTile * kTile], m_along[kTile * kTile], m_across[kTile * kTile];
     float m_bare[kTile * kTile];  ///< share of the canvas that opaque strokes would leave
+    std::vector<float> m_tooth;   ///< of the canvas; empty: the brush reaches all of it
 };
 
 /// Measures the pixels that are nearer to the segment a -> b than to those before. m_across receives the square of the
@@ -165,8 +196,9 @@ void TilePainter::look_up(const Stroke& stroke, float length, Box box)
 {
     const float half = 0.5f * stroke.width, total = length + stroke.width, per_width = 1.0f / stroke.width;
     const Brush::Mask mask = m_brush.mask(stroke.width, stroke.variation);
+    const float opacity = m_options.opacity * stroke.opacity;
     // The ends keep their shape; only what is longer than two widths is stretched.
-    const float zone = m_brush.stretched() ? 0.25f * total : std::min(stroke.width, 0.25f * total);
+    const float zone = m_brush.stretched() ? 0.25f * total : std::min(stroke.width, 0.5f * total);
     const float per_zone = 0.25f / zone, per_middle = total > 2.0f * zone ? 0.5f / (total - 2.0f * zone) : 0.0f;
     for (int y = box.y0; y < box.y1; ++y) {
         const int row = slot(box.x0, y);
@@ -184,10 +216,28 @@ void TilePainter::look_up(const Stroke& stroke, float length, Box box)
                 : s <= total - zone  ? 0.25f + (s - zone) * per_middle
                                      : 1.0f - (total - s) * per_zone;
             const Paint paint = mask.at(u, v * per_width + 0.5f);
-            along[k] = paint.alpha * std::min(inside, 1.0f) * m_options.opacity;
+            along[k] = paint.alpha * std::min(inside, 1.0f) * opacity;
             across[k] = paint.height;
             distance[k] = along[k];
         }
+    }
+}
+
+/// Leaves thin paint on the raised parts of the canvas only.
+void TilePainter::rest_on_tooth(Box box)
+{
+    // By eye. More of the first leaves more canvas bare, more of the second makes harder grains.
+    constexpr float kPress = 1.15f, kGrip = 5.0f;
+    const float deep = m_brush.tooth();
+    for (int y = box.y0; y < box.y1; ++y) {
+        const int row = slot(box.x0, y);
+        for (int k = row; k < row + box.x1 - box.x0; ++k)
+            if (m_distance[k] < kFar) {
+                // Tooth higher than this takes paint. Pressing harder reaches deeper.
+                const float least = deep * (kPress - m_along[k]);
+                m_along[k] *= std::clamp(0.5f + kGrip * (m_tooth[std::size_t(k)] - least), 0.0f, 1.0f);
+                m_distance[k] = m_along[k];
+            }
     }
 }
 
@@ -205,7 +255,7 @@ void TilePainter::stop_at_edges(const Shade& shade, Box box)
     }
 }
 
-void TilePainter::blend(const std::vector<std::vector<float>>& colours, Index i, float brightness, float thickness,
+void TilePainter::blend(const std::vector<std::vector<float>>& colours, Index i, const Tint& tint, float thickness,
                         Box box)
 {
     const float grain = m_brush.grain();
@@ -215,7 +265,7 @@ void TilePainter::blend(const std::vector<std::vector<float>>& colours, Index i,
         const float *alpha = m_along + row, *height = m_across + row;
         const std::size_t at = std::size_t(y) * std::size_t(m_canvas.width) + std::size_t(box.x0);
         for (std::size_t c = 0; c < m_canvas.channels.size(); ++c) {
-            const float colour = brightness * colours[c][i];
+            const float colour = tint[std::min<std::size_t>(c, 2)] * colours[c][i];
             float* out = m_canvas.channels[c] + at;
             for (int k = 0; k < columns; ++k) {
                 const float shade = colour * (1.0f + grain * (height[k] - 0.5f));
@@ -287,12 +337,14 @@ void TilePainter::paint(const Strokes& strokes, Index i, const std::vector<std::
     if (touched.empty())
         return;
     look_up(stroke, length, touched);
+    if (!m_tooth.empty())
+        rest_on_tooth(touched);
     if (m_stop)
         stop_at_edges(m_stop->shade(i), touched);
     if (m_options.ground)
         note_cover(touched);
-    const float brightness = 1.0f + m_options.jitter_colour * signed_unit(scramble(stroke.variation + 3));
-    blend(colours, i, brightness, kThickness * std::sqrt(stroke.width), touched);
+    const Tint tint = tint_of(stroke, m_options.jitter_colour, m_canvas.channels.size() > 2);
+    blend(colours, i, tint, kThickness * std::sqrt(stroke.width), touched);
 }
 
 }  // namespace

@@ -40,9 +40,37 @@ ShadePicture::ShadePicture(const ChannelsView& guides, const ParallelFor& parall
     });
 }
 
+ShadePicture::ShadePicture(int width, int height, int shrunk, float per_channel)
+    : m_width(width),
+      m_height(height),
+      m_shrunk(shrunk),
+      m_per_channel(per_channel),
+      m_inverse(1.0f / float(shrunk)),
+      m_shades(std::size_t(width) * std::size_t(height), Shade {})
+{
+}
+
+ShadePicture ShadePicture::half(const ParallelFor& parallel) const
+{
+    ShadePicture half((m_width + 1) / 2, (m_height + 1) / 2, 2 * m_shrunk, m_per_channel);
+    for_rows(parallel, 0, half.m_height, [&](int y) {
+        const int below = std::min(2 * y + 1, m_height - 1);
+        Shade* out = half.m_shades.data() + std::size_t(y) * std::size_t(half.m_width);
+        for (int x = 0; x < half.m_width; ++x) {
+            const int right = std::min(2 * x + 1, m_width - 1);
+            const Shade &a = pixel(2 * x, 2 * y), &b = pixel(right, 2 * y);
+            const Shade &c = pixel(2 * x, below), &d = pixel(right, below);
+            for (std::size_t k = 0; k < kChannels; ++k)
+                out[x][k] = 0.25f * ((a[k] + b[k]) + (c[k] + d[k]));
+        }
+    });
+    return half;
+}
+
 Shade ShadePicture::between(Vec2 p) const
 {
-    const float fx = std::clamp(p.x, 0.0f, float(m_width - 1)), fy = std::clamp(p.y, 0.0f, float(m_height - 1));
+    const Vec2 q = own(p);
+    const float fx = std::clamp(q.x, 0.0f, float(m_width - 1)), fy = std::clamp(q.y, 0.0f, float(m_height - 1));
     const int x = int(fx), y = int(fy), right = std::min(x + 1, m_width - 1), below = std::min(y + 1, m_height - 1);
     const float wx = fx - float(x), wy = fy - float(y);
     Shade result;
@@ -57,6 +85,23 @@ float ShadePicture::contrast(int x, int y) const
     const int left = std::max(x - 2, 0), right = std::min(x + 2, m_width - 1);
     const int above = std::max(y - 2, 0), below = std::min(y + 2, m_height - 1);
     return std::max(distance(pixel(left, y), pixel(right, y)), distance(pixel(x, above), pixel(x, below)));
+}
+
+ShadePyramid::ShadePyramid(const ChannelsView& guides, const ParallelFor& parallel)
+{
+    m_levels.emplace_back(guides, parallel);
+    while (std::min(m_levels.back().width(), m_levels.back().height()) > 2)
+        m_levels.push_back(m_levels.back().half(parallel));
+}
+
+const ShadePicture& ShadePyramid::for_width(float width) const
+{
+    // A pixel is at most an eighth of the stroke: less sees more noise, and more loses the edges. By eye.
+    constexpr float kPixelsPerWidth = 8.0f;
+    std::size_t level = 0;
+    while (level + 1 < m_levels.size() && width >= 2.0f * kPixelsPerWidth * float(m_levels[level].shrunk()))
+        ++level;
+    return m_levels[level];
 }
 
 Sketch::Sketch(const ShadePicture& picture, int cell)
@@ -122,10 +167,13 @@ float Sketch::gain(const Vec2* points, int count, float width, const Shade& shad
     return cells ? sum / float(cells) : 0.0f;
 }
 
-void Sketch::put(const Vec2* points, int count, float width, const Shade& shade)
+void Sketch::put(const Vec2* points, int count, float width, const Shade& shade, float opacity)
 {
     visit(points, count, width, [&](std::size_t at) {
-        m_painted[at] = shade;
+        // On bare canvas thin paint counts as much as thick: there is nothing else to compare with.
+        const float share = m_covered[at] ? opacity : 1.0f;
+        for (std::size_t c = 0; c < shade.size(); ++c)
+            m_painted[at][c] += share * (shade[c] - m_painted[at][c]);
         m_covered[at] = 1;
     });
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plans a painting: dabs in coarse-to-fine order are bent along the edges, fitted between them, and kept when they
-// bring the canvas closer to the picture.
+// Plans a painting in layers, from the widest brush to the narrowest. Each layer has its places on a grid. A place gets a
+// stroke if pieces of that size are there and if the stroke brings the canvas closer to the picture, as the layers before
+// have left it. So the places of a layer do not depend on each other: they are judged side by side, and noise that
+// changes one stroke does not change the others.
 #include <pimg/detail/elementary.h>
 #include <pimg/detail/parallel.h>
 #include <pimg/detail/stop.h>
@@ -9,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sketch.h"
+#include "planner.h"
 
 namespace pimg {
 
@@ -17,224 +19,234 @@ namespace {
 
 // The paper gives the idea of section 5.2 but no numbers. Where nothing else is said, a number is chosen by eye.
 
-/// Points of a stroke to either side of its middle: at a step of 0.4 widths enough for 19 widths of length.
-constexpr int kMostPoints = 24;
+/// How wrong bare canvas counts as, in tolerances. A stroke with a third of its cells on it is worth painting; with less, what is
+/// bare is left to narrower strokes, or to be filled from below, and the wide strokes around it stay to be seen.
+constexpr float kBare = 3.0f;
 
-/// A stroke is at least this many widths long, ends included, where nothing stops it, and at most that many. More of
-/// the second gives longer, calmer strokes.
-constexpr float kShortest = 2.0f, kLongest = 8.0f;
+/// Widths of neighbouring layers are about this factor apart. Less gives more layers, which differ less.
+constexpr float kOctave = 1.6f;
 
-/// How wrong a cell without paint counts as, in 8-bit steps: more than a shade usually differs from the picture, so
-/// that bare canvas is covered first, but less than black differs from white, so that a stroke of a quite wrong colour
-/// is not put there.
-constexpr float kBare = 64.0f;
+/// Distance of places, in widths. Less gives more paint on paint, and takes longer.
+constexpr float kPitch = 1.1f;
 
-/// Width of an edge in the smoothed picture, in pixels to either side: the reach of its kernel of five pixels.
-constexpr float kEdgeWidth = 2.0f;
-
-/// The eighth of a full turn, 45 degrees, in radians: the largest turn by jitter_angle.
-constexpr float kEighth = float(elementary::kPi / 4);
-
-/// Distance of places, in widths. Measured: at 0.33 and 0.8 as much paint spills on the astronaut and more
-/// on the rocket (docs/internals.md).
-constexpr float kPitch = 0.5f;
+/// The share of this distance at which dots lie, which have no length, and that of the widest strokes, which must cover all.
+constexpr float kDotPitch = 0.65f, kGroundPitch = 0.85f;
 
 /// Largest random shift of a place, as a share of the distance of places. With more there is less of a grid, but more
 /// gaps.
-constexpr float kScatter = 0.3f;
+constexpr float kScatter = 0.4f;
 
-/// A stroke goes to the fixed place if the picture there differs by less than this share of `crossing`; else to the
-/// place of its piece. Chosen by eye. Taking the fixed place always makes hardly any difference (docs/internals.md).
-constexpr float kAlikePlace = 0.4f;
+/// Length of a stroke in widths, ends included, and the largest random change of it, as a share.
+constexpr float kLength = 4.0f, kLengthChance = 0.3f;
 
-/// Step along a stroke in widths, and the cosine of the sharpest turn from one step to the next, 45 degrees.
-constexpr float kStep = 0.4f, kStraight = 0.7f;
+/// Pieces that are measured, for each square of the narrowest brush that fits into the picture. The hierarchy has the
+/// important features in its first splits; what comes after so many pieces is not worth a brush of that size.
+constexpr double kPiecesPerSquare = 2.0;
 
-/// Cell of the sketch in least widths: 2 pixels at the default least width of 3, which halved the time of planning.
+/// Cell of the sketch in least widths: 2 pixels for a least width of 3, which halved the time of planning.
 constexpr float kCell = 0.67f;
 
 /// Length, in widths, of a stroke that fills a gap.
 constexpr float kGapLength = 3.0f;
 
-/// A stroke being drawn.
-struct Draft {
-    Vec2 points[2 * kMostPoints + 1];
-    int first = kMostPoints, last = kMostPoints;  ///< of `points`, both in use
-    float width = 0.0f;
-    Shade shade {};
-    std::uint32_t variation = 0;
-
-    const Vec2* begin() const { return points + first; }
-    int size() const { return last - first + 1; }
-};
-
-class Planner {
+/// The widths of the layers: those of a geometric series. Layer 0 has the narrowest brush of a place where the detail map changes
+/// nothing; where it does, the range begins at another layer, above or below 0.
+class Ladder {
 public:
-    Planner(const ShadePicture& picture, const DirectionField& field, const StrokeOptions& options)
-        : m_picture(picture),
-          m_field(field),
-          m_options(options)
+    explicit Ladder(const StrokeOptions& options) : m_options(options)
     {
+        const double range = elementary::log2(double(options.max / options.min));
+        m_layers = 1 + std::max(0, int(std::lround(range / elementary::log2(double(kOctave)))));
+        m_step = m_layers > 1 ? range / (m_layers - 1) : elementary::log2(double(kOctave));
     }
 
-    /// A stroke of about that width and length.
-    Draft draft(Vec2 place, float width, float length, std::uint32_t variation) const;
+    int layers() const { return m_layers; }
+    int lowest() const { return m_options.detail ? shift(0.25f) : 0; }
+    int highest() const { return (m_options.detail ? shift(4.0f) : 0) + m_layers - 1; }
+    float width(int layer) const { return m_options.min * float(elementary::exp2(m_step * layer)); }
+    /// The layer where the range of a place begins whose widths are scaled.
+    int shift(float scale) const { return int(std::lround(elementary::log2(double(scale)) / m_step)); }
+    /// The layer of a width.
+    int layer(float width) const { return shift(width / m_options.min); }
 
 private:
-    void fit_between_edges(Draft& draft, Vec2 along, float min) const;
-    void walk(Draft& draft, Vec2 along, float reach, int sign) const;
-    bool is_same_shade(Vec2 p, const Shade& shade) const
-    {
-        return m_picture.distance(m_picture.at(p), shade) <= m_options.crossing;
-    }
-
-    const ShadePicture& m_picture;
-    const DirectionField& m_field;
     const StrokeOptions& m_options;
+    int m_layers;
+    double m_step;  ///< octaves from one layer to the next
 };
 
-/// Where an edge cuts into the width of a stroke, moves the stroke to its own side and makes it as narrow as necessary.
-void Planner::fit_between_edges(Draft& draft, Vec2 along, float min) const
-{
-    Vec2& centre = draft.points[kMostPoints];
-    const Vec2 across { -along.y, along.x };
-    const float half = 0.5f * draft.width, step = std::max(0.75f, 0.125f * draft.width);
-    const auto difference_at = [&](float v) {
-        return m_picture.distance(m_picture.between({ centre.x + v * across.x, centre.y + v * across.y }), draft.shade);
-    };
-    float free[2];
-    for (int side = 0; side < 2; ++side) {
-        const float sign = side ? 1.0f : -1.0f;
-        float reached = 0.0f, before = 0.0f;
-        while (reached < half) {
-            const float next = std::min(reached + step, half), here = difference_at(sign * next);
-            if (here > m_options.crossing) {
-                // The edge is where half of the difference between its sides is reached.
-                const float level = std::max(m_options.crossing, 0.5f * difference_at(sign * (next + kEdgeWidth)));
-                reached += step * std::min(1.0f, (level - before) / std::max(here - before, 1e-3f));
-                break;
-            }
-            reached = next;
-            before = here;
-        }
-        free[side] = std::min(reached, half);
-    }
-    const float room = free[0] + free[1];
-    if (room >= draft.width)
-        return;
-    draft.width = std::max(room, min);
-    // If there is less room on one side, half of the difference shifts the stroke to the other.
-    const float shift = 0.5f * (free[1] - free[0]);
-    centre = { centre.x + shift * across.x, centre.y + shift * across.y };
-}
+/// The places of a layer, on a grid that begins outside of the picture's upper left corner.
+struct Places {
+    int layer, columns, rows;
+    float width, pitch;
+    std::vector<Index> dab;  ///< of each cell: 1 + the last dab there of that size; 0 if there is none
 
-/// Follows the directions from the middle to one end.
-void Planner::walk(Draft& draft, Vec2 along, float reach, int sign) const
-{
-    const float wanted = std::max(1.0f, kStep * draft.width);
-    const int steps = std::min(kMostPoints, int(std::ceil(reach / wanted)));
-    if (steps == 0)
-        return;
-    const float step = reach / float(steps), tip = 0.5f * draft.width;
-    Vec2 p = draft.points[kMostPoints], d { float(sign) * along.x, float(sign) * along.y };
-    for (int i = 0; i < steps; ++i) {
-        Vec2 turn = m_field.at({ p.x + 0.5f * step * d.x, p.y + 0.5f * step * d.y });
-        float cosine = turn.x * d.x + turn.y * d.y;
-        if (cosine < 0.0f) {
-            turn = { -turn.x, -turn.y };
-            cosine = -cosine;
-        }
-        if (i == 0)
-            turn = d;  // a stroke that chance has turned starts in that direction
-        else if (cosine < kStraight)
-            break;
-        const Vec2 q { p.x + step * turn.x, p.y + step * turn.y };
-        if (!is_same_shade(q, draft.shade) || !is_same_shade({ q.x + tip * turn.x, q.y + tip * turn.y }, draft.shade)
-            || q.x < 0.0f || q.y < 0.0f || q.x > float(m_picture.width() - 1) || q.y > float(m_picture.height() - 1))
-            break;
-        p = q;
-        d = turn;
-        draft.points[sign > 0 ? ++draft.last : --draft.first] = p;
+    Places(const Ladder& ladder, int which, float distance, int picture_width, int picture_height)
+        : layer(which),
+          width(ladder.width(which)),
+          pitch(distance * width)
+    {
+        columns = int(float(picture_width) / pitch) + 2;
+        rows = int(float(picture_height) / pitch) + 2;
+        dab.resize(std::size_t(columns) * std::size_t(rows), 0);
     }
-}
 
-Draft Planner::draft(Vec2 place, float width, float length, std::uint32_t variation) const
-{
+    std::size_t cell(int x, int y) const { return std::size_t(y) * std::size_t(columns) + std::size_t(x); }
+    void mark(Vec2 p, Index which)
+    {
+        const int x = int(p.x / pitch + 0.5f), y = int(p.y / pitch + 0.5f);
+        dab[cell(std::clamp(x, 0, columns - 1), std::clamp(y, 0, rows - 1))] = which + 1;
+    }
+    /// The dab of a cell or of one next to it.
+    Index dab_near(int x, int y) const
+    {
+        if (const Index own = dab[cell(x, y)])
+            return own;
+        for (int dy = -1; dy <= 1; ++dy)
+            for (int dx = -1; dx <= 1; ++dx)
+                if (x + dx >= 0 && y + dy >= 0 && x + dx < columns && y + dy < rows)
+                    if (const Index next = dab[cell(x + dx, y + dy)])
+                        return next;
+        return 0;
+    }
+};
+
+/// A stroke that is to be painted.
+struct Chosen {
     Draft draft;
-    draft.variation = variation;
-    const float scale = m_options.scale(place, m_picture.width(), m_picture.height());
-    const float min = m_options.min * scale, max = m_options.max * scale;
-    const float resized = width * (1.0f + m_options.jitter_size * signed_unit(scramble(draft.variation + 1)));
-    draft.width = std::clamp(resized, min, max);
-    draft.points[kMostPoints] = place;
-    draft.shade = m_picture.at(place);
-    fit_between_edges(draft, m_field.at(place), min);
-
-    const Vec2 centre = draft.points[kMostPoints];
-    Vec2 along = m_field.at(centre);
-    const float turn = kEighth * m_options.jitter_angle * signed_unit(scramble(draft.variation + 2));
-    const auto [sine, cosine] = elementary::sine_cosine(double(turn));
-    const float c = float(cosine), s = float(sine);
-    along = { c * along.x - s * along.y, s * along.x + c * along.y };
-    draft.shade = m_picture.at(centre);
-    length = std::clamp(m_options.length * length, kShortest * draft.width,
-                        std::max(1.0f, m_options.length) * kLongest * draft.width);
-    walk(draft, along, 0.5f * (length - draft.width), -1);
-    walk(draft, along, 0.5f * (length - draft.width), +1);
-    if (draft.size() == 1)
-        draft.points[++draft.last] = { centre.x + 0.25f * along.x, centre.y + 0.25f * along.y };
-    return draft;
-}
-
-/// A place that may have a stroke of one size. Sizes of brushes are half an octave apart, and there is one stroke of a
-/// size to a place. So the next frame of a film, whose noise makes another mesh, finds most strokes where they were.
-struct Site {
-    std::uint64_t key;  ///< size, large first, then chance: the order of painting
-    Index dab;
-    float width;
-    Vec2 centre;
+    Index vertex;
+    Level level;
 };
 
-Site site_of(const Dab& dab, Index index, const ShadePicture& picture, const StrokeOptions& options)
-{
-    const float scale = options.scale(dab.centre, picture.width(), picture.height());
-    const float min = options.min * scale, max = options.max * scale;
-    const int size = int(std::lround(2.0 * elementary::log2(double(dab.width / min))));
-    Site site { 0, index, std::clamp(min * float(elementary::exp2(0.5 * size)), min, max), dab.centre };
-    const float pitch = kPitch * site.width;
-    const int x = int(std::lround(dab.centre.x / pitch)), y = int(std::lround(dab.centre.y / pitch));
-    const std::uint32_t chance = scramble(
-        std::uint32_t(x) + scramble(std::uint32_t(y) + scramble(std::uint32_t(size) + scramble(options.seed))));
-    const Vec2 place { pitch * (float(x) + kScatter * signed_unit(scramble(chance + 4))),
-                       pitch * (float(y) + kScatter * signed_unit(scramble(chance + 5))) };
-    // Next to an edge the place of the piece is better, because it comes from the mesh.
-    if (picture.distance(picture.at(place), picture.at(dab.centre)) < kAlikePlace * options.crossing)
-        site.centre = place;
-    const int bin = std::clamp(int(4.0 * (20.0 - elementary::log2(double(site.width)))), 0, 255);
-    site.key = (std::uint64_t(bin) << 32) + chance;
-    return site;
-}
-
-/// The sites of all dabs in the order of painting.
-std::vector<Site> sites_in_order(const std::vector<Dab>& dabs, const ShadePicture& picture,
-                                 const StrokeOptions& options)
-{
-    std::vector<Site> sites;
-    sites.reserve(dabs.size());
-    for (Index i = 0; i < Index(dabs.size()); ++i) {
-        stop_point();
-        sites.push_back(site_of(dabs[i], i, picture, options));
+class LayerPlanner {
+public:
+    LayerPlanner(const ShadePyramid& pictures, const DirectionField& field, const StrokeOptions& options)
+        : m_options(options),
+          m_width(field.width()),
+          m_height(field.height()),
+          m_ladder(options),
+          m_planner(pictures, field, options)
+    {
     }
-    std::sort(sites.begin(), sites.end(),
-              [](const Site& a, const Site& b) { return a.key != b.key ? a.key < b.key : a.dab < b.dab; });
-    return sites;
+
+    /// Sorts the dabs into the places of all layers.
+    void mark(const std::vector<Dab>& dabs);
+    /// The strokes of a layer on a canvas, in the order of painting.
+    std::vector<Chosen> choose(const Places& places, const Sketch& sketch) const;
+    /// Strokes for what is bare.
+    std::vector<Chosen> fill(Sketch& sketch) const;
+
+    std::vector<Places> layers;  ///< the widest brush first
+
+private:
+    void choose_row(const Places& places, int y, const Sketch& sketch, std::vector<Chosen>& chosen) const;
+    Site site(const Places& places, int x, int y) const;
+
+    const StrokeOptions& m_options;
+    int m_width, m_height;
+    Ladder m_ladder;
+    Planner m_planner;
+    std::vector<Dab> m_dabs;
+};
+
+void LayerPlanner::mark(const std::vector<Dab>& dabs)
+{
+    m_dabs = dabs;
+    const int lowest = m_ladder.lowest(), highest = m_ladder.highest();
+    const float distance = kPitch * (kDotPitch + (1.0f - kDotPitch) * std::min(1.0f, m_options.length));
+    for (int layer = highest; layer >= lowest; --layer)
+        layers.emplace_back(m_ladder, layer, layer == highest ? kGroundPitch * distance : distance, m_width, m_height);
+    for (Index i = 0; i < Index(dabs.size()); ++i) {
+        const int layer = std::clamp(m_ladder.layer(dabs[i].width), lowest, highest);
+        layers[std::size_t(highest - layer)].mark(dabs[i].centre, i);
+    }
 }
 
-void append(const Draft& draft, Index vertex, Level level, Strokes& strokes)
+Site LayerPlanner::site(const Places& places, int x, int y) const
 {
-    strokes.strokes.push_back(
-        { Index(strokes.points.size()), Index(draft.size()), draft.width, vertex, level, draft.variation });
-    strokes.points.insert(strokes.points.end(), draft.begin(), draft.begin() + draft.size());
+    const std::uint32_t chance =
+        scramble(std::uint32_t(x)
+                 + scramble(std::uint32_t(y) + scramble(std::uint32_t(places.layer) + scramble(m_options.seed))));
+    const Vec2 place { places.pitch * (float(x) + kScatter * signed_unit(scramble(chance + 4))),
+                       places.pitch * (float(y) + kScatter * signed_unit(scramble(chance + 5))) };
+    const float scale = m_options.scale(place, m_width, m_height);
+    return { place, places.width, m_options.min * scale, m_options.max * scale, chance };
+}
+
+void LayerPlanner::choose_row(const Places& places, int y, const Sketch& sketch, std::vector<Chosen>& chosen) const
+{
+    for (int x = 0; x < places.columns; ++x) {
+        const Site site = this->site(places, x, y);
+        const int above = places.layer - m_ladder.shift(site.narrowest / m_options.min);
+        if (site.place.x < 0.0f || site.place.y < 0.0f || site.place.x > float(m_width - 1)
+            || site.place.y > float(m_height - 1) || above < 0 || above >= m_ladder.layers())
+            continue;
+        const bool is_underpainting = above == m_ladder.layers() - 1;
+        const Index dab = places.dab_near(x, y);
+        if ((dab == 0 && !is_underpainting)
+            || 0.5f + 0.5f * signed_unit(scramble(site.variation + 6)) > m_options.cover)
+            continue;
+        const float chance = 1.0f + kLengthChance * signed_unit(scramble(site.variation + 7));
+        Draft draft = m_planner.draft(site, m_options.length * kLength * chance * places.width);
+        if (!is_underpainting && m_options.tolerance > 0.0f) {
+            const float gain =
+                sketch.gain(draft.begin(), draft.size(), draft.width, draft.shade, kBare * m_options.tolerance);
+            draft.opacity = std::clamp(gain / m_options.tolerance - 1.0f, 0.0f, 1.0f);
+            if (draft.opacity <= 0.0f)
+                continue;
+        }
+        chosen.push_back({ draft, dab ? m_dabs[dab - 1].vertex : kGhost, dab ? m_dabs[dab - 1].level : 0 });
+    }
+}
+
+std::vector<Chosen> LayerPlanner::choose(const Places& places, const Sketch& sketch) const
+{
+    std::vector<std::vector<Chosen>> of_row(std::size_t(places.rows));
+    run(m_options.parallel, of_row.size(), [&](std::size_t y) {
+        stop_point();
+        choose_row(places, int(y), sketch, of_row[y]);
+    });
+    std::vector<Chosen> all;
+    for (const std::vector<Chosen>& row : of_row)
+        all.insert(all.end(), row.begin(), row.end());
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Chosen& a, const Chosen& b) { return a.draft.variation < b.draft.variation; });
+    return all;
+}
+
+std::vector<Chosen> LayerPlanner::fill(Sketch& sketch) const
+{
+    std::vector<Chosen> all;
+    const float width = std::min(m_options.max, 2.0f * m_options.min);
+    for (Vec2 place : sketch.bare_cells()) {
+        stop_point();
+        if (sketch.is_covered(place))
+            continue;
+        const Site site { place, width, m_options.min, m_options.max, scramble(Index(all.size())) };
+        const Draft draft = m_planner.draft(site, kGapLength * width);
+        sketch.put_below(draft.begin(), draft.size(), draft.width, draft.shade);
+        all.push_back({ draft, kGhost, 0 });
+    }
+    return all;
+}
+
+void append(const std::vector<Chosen>& chosen, Strokes& strokes)
+{
+    for (const auto& [draft, vertex, level] : chosen) {
+        strokes.strokes.push_back({ Index(strokes.points.size()), Index(draft.size()), draft.width, vertex, level,
+                                    draft.variation, draft.opacity });
+        strokes.points.insert(strokes.points.end(), draft.begin(), draft.begin() + draft.size());
+    }
+}
+
+/// The dabs of the levels that can have features worth a brush.
+Status dabs_of_features(const Hierarchy& hierarchy, const DirectionField& field, const StrokeOptions& options,
+                        std::vector<Dab>& dabs)
+{
+    const double side = double(options.min) * (options.detail ? 0.25 : 1.0);
+    DabOptions measured = options;
+    measured.last = hierarchy.level_of_vertices(kPiecesPerSquare * double(hierarchy.mesh_pixels()) / (side * side));
+    return collect_dabs(hierarchy, field, measured, dabs);
 }
 
 }  // namespace
@@ -243,43 +255,29 @@ Status plan_strokes(const Hierarchy& hierarchy, const ChannelsView& guides, cons
                     const StrokeOptions& options, Strokes& strokes)
 {
     std::vector<Dab> dabs;
-    const Status status = collect_dabs(hierarchy, field, options, dabs);
+    const Status status = dabs_of_features(hierarchy, field, options, dabs);
     if (!status)
         return status;
-    const ShadePicture picture(guides, options.parallel);
-    Sketch sketch(picture, std::max(1, int(kCell * options.min + 0.5f)));
-    const Planner planner(picture, field, options);
+    const ShadePyramid pictures(guides, options.parallel);
+    Sketch sketch(pictures.finest(), std::max(1, int(kCell * options.min + 0.5f)));
+    LayerPlanner planner(pictures, field, options);
+    planner.mark(dabs);
 
-    Strokes laid;
-    for (const Site& site : sites_in_order(dabs, picture, options)) {
-        stop_point();
-        const Draft draft = planner.draft(site.centre, site.width, dabs[site.dab].length, std::uint32_t(site.key));
-        const float gain = sketch.gain(draft.begin(), draft.size(), draft.width, draft.shade, kBare);
-        if (options.tolerance > 0.0f && gain < options.tolerance)
-            continue;
-        sketch.put(draft.begin(), draft.size(), draft.width, draft.shade);
-        append(draft, dabs[site.dab].vertex, dabs[site.dab].level, laid);
+    std::vector<std::vector<Chosen>> laid;
+    for (const Places& places : planner.layers) {
+        laid.push_back(planner.choose(places, sketch));
+        for (const Chosen& chosen : laid.back())
+            sketch.put(chosen.draft.begin(), chosen.draft.size(), chosen.draft.width, chosen.draft.shade,
+                       chosen.draft.opacity);
     }
-
-    // Canvas that is still bare is covered by strokes below all others, which show in the gaps only.
     strokes = {};
     strokes.width = guides.width;
     strokes.height = guides.height;
-    const float width = std::min(options.max, 2.0f * options.min);
-    for (Vec2 place : sketch.bare_cells()) {
-        stop_point();
-        if (sketch.is_covered(place))
-            continue;
-        const Draft draft = planner.draft(place, width, kGapLength * width, scramble(Index(strokes.strokes.size())));
-        sketch.put_below(draft.begin(), draft.size(), draft.width, draft.shade);
-        append(draft, kGhost, 0, strokes);
-    }
-    const Index shift = Index(strokes.points.size());
-    for (Stroke s : laid.strokes) {
-        s.first += shift;
-        strokes.strokes.push_back(s);
-    }
-    strokes.points.insert(strokes.points.end(), laid.points.begin(), laid.points.end());
+    // Canvas that is still bare is covered by strokes below all others, which show in the gaps only.
+    if (options.cover >= 1.0f)
+        append(planner.fill(sketch), strokes);
+    for (const std::vector<Chosen>& layer : laid)
+        append(layer, strokes);
     return {};
 }
 

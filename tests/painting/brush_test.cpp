@@ -9,7 +9,7 @@ using namespace pimg;
 
 namespace {
 
-constexpr const char* kNames[] = { "round", "flat", "bristle", "knife" };
+constexpr const char* kNames[] = { "round", "flat", "bristle", "knife", "chalk", "wash" };
 
 double mean_alpha(const Brush::Mask& mask)
 {

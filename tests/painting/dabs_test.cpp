@@ -68,6 +68,23 @@ TEST(Dabs, NoneIsLeftOutOfAnUnboundedRange)
     EXPECT_EQ(dabs.size(), scene.hierarchy.base_vertices() + 2 * scene.hierarchy.levels());
 }
 
+TEST(Dabs, AreThoseOfTheFirstLevels)
+{
+    const PaintedScene scene(test::scene(100, 70));
+    const DirectionField field(scene.guides);
+    DabOptions options;
+    std::vector<Dab> all, first;
+    ASSERT_TRUE(collect_dabs(scene.hierarchy, field, options, all).ok());
+    options.last = scene.hierarchy.levels() / 8;
+    ASSERT_TRUE(collect_dabs(scene.hierarchy, field, options, first).ok());
+    ASSERT_LT(first.size(), all.size());
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        EXPECT_LE(first[i].level, options.last);
+        EXPECT_EQ(first[i].vertex, all[i].vertex);
+    }
+    EXPECT_GT(all[first.size()].level, options.last);
+}
+
 TEST(Dabs, DetailMapScalesTheRangeByPowersOfFour)
 {
     DabOptions options;

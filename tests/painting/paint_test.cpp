@@ -53,7 +53,7 @@ TEST(Paint, StaysOnItsSideOfAnEdge)
 {
     const PaintedScene scene(test::make("step", 120, 90, [](int x, int y) { return x + y / 3 < 70 ? 30 : 220; }));
     StrokePaintOptions settings;
-    settings.edges = &scene.guides;
+    settings.edges = settings.ground = &scene.guides;
     const std::vector<float> canvas = painted(scene, {}, Brush::named("round"), settings, 125.0f);
     for (int y = 1; y < 89; ++y)  // the rim may be thinly covered: LeavesNoHoles
         for (int x = 1; x < 119; ++x) {
@@ -90,6 +90,71 @@ TEST(Paint, OfAConstantPictureHasItsColour)
         }
         EXPECT_GE(covered, std::size_t(64 * 48 * 8 / 10)) << name;
     }
+}
+
+TEST(Paint, OfThinStrokesLeavesTheirShare)
+{
+    const PaintedScene flat(test::make("constant", 64, 48, [](int, int) { return 100; }));
+    Strokes strokes { 64, 48, { { 0, 2, 20.0f } }, { { 20, 24 }, { 44, 24 } } };
+    for (const float opacity : { 0.0f, 0.25f, 1.0f }) {
+        strokes.strokes[0].opacity = opacity;
+        std::vector<float> canvas(flat.samples.size(), 0.0f);
+        Canvas target { 64, 48, { canvas.data() } };
+        paint_strokes(strokes, { { 100.0f } }, Brush::named("round"), {}, target);
+        EXPECT_NEAR(canvas[24 * 64 + 32], 100.0f * opacity, 1e-3f);
+    }
+}
+
+/// A dot is as long as it is wide, and its corners are bare.
+TEST(Paint, OfNoLengthIsARoundDot)
+{
+    const Strokes dot { 64, 48, { { 0, 2, 20.0f } }, { { 32, 24 }, { 32.01f, 24 } } };
+    std::vector<float> canvas(64 * 48, 0.0f);
+    Canvas target { 64, 48, { canvas.data() } };
+    paint_strokes(dot, { { 1.0f } }, Brush::named("round"), {}, target);
+    for (int y = 0; y < 48; ++y)
+        for (int x = 0; x < 64; ++x) {
+            const double r = std::hypot(x - 32, y - 24);
+            if (r < 8.0 || r > 11.0) {
+                EXPECT_NEAR(canvas[std::size_t(y * 64 + x)], r < 8.0 ? 1.0f : 0.0f, 0.02f) << x << ", " << y;
+            }
+        }
+}
+
+/// The tooth keeps chalk off some of the canvas, the same pixels whatever is drawn.
+TEST(Paint, OfChalkLeavesTheValleysOfTheCanvas)
+{
+    const Strokes strokes { 64, 48, { { 0, 2, 40.0f } }, { { 12, 24 }, { 52, 24 } } };
+    const auto drawn = [&](const char* brush, float colour) {
+        std::vector<float> canvas(64 * 48, 0.0f);
+        Canvas target { 64, 48, { canvas.data() } };
+        paint_strokes(strokes, { { colour } }, Brush::named(brush), {}, target);
+        return canvas;
+    };
+    const std::vector<float> chalk = drawn("chalk", 1.0f), again = drawn("chalk", 2.0f), oil = drawn("round", 1.0f);
+    int bare = 0, covered = 0;
+    for (int y = 18; y < 30; ++y)
+        for (int x = 20; x < 44; ++x) {
+            const std::size_t at = std::size_t(y * 64 + x);
+            bare += chalk[at] < 0.1f;
+            covered += chalk[at] > 0.5f;
+            EXPECT_NEAR(again[at], 2.0f * chalk[at], 1e-5f);
+            EXPECT_GT(oil[at], 0.99f);
+        }
+    EXPECT_GT(bare, 12 * 24 / 50);
+    EXPECT_GT(covered, 12 * 24 / 3);
+}
+
+TEST(Paint, ChangesColoursOfStrokesByChance)
+{
+    const PaintedScene flat(test::make("constant", 90, 70, [](int, int) { return 100; }));
+    StrokePaintOptions settings;
+    settings.jitter_colour = 0.2f;
+    const std::vector<float> canvas = painted(flat, {}, Brush::named("round"), settings, 100.0f);
+    const auto [least, most] = std::minmax_element(canvas.begin(), canvas.end());
+    EXPECT_GE(*least, 100.0f * (1.0f - 0.2f) - 1e-3f) << "of one channel only the brightness changes";
+    EXPECT_LE(*most, 100.0f * (1.0f + 0.2f) + 1e-3f);
+    EXPECT_GT(*most - *least, 10.0f);
 }
 
 TEST(Paint, ShowsTheGroundInHoles)

@@ -45,17 +45,46 @@ TEST_F(SketchOfAStep, GainIsWhatAStrokeImproves)
     const Shade dark { 40, 0, 0 }, bright { 200, 0, 0 };
     EXPECT_NEAR(m_sketch.gain(m_line, 2, 8.0f, dark, kBare), kBare, 1e-3f) << "on the bare canvas, exactly right";
     EXPECT_NEAR(m_sketch.gain(m_line, 2, 8.0f, bright, kBare), kBare - 160.0f, 1e-3f);
-    m_sketch.put(m_line, 2, 8.0f, bright);
+    m_sketch.put(m_line, 2, 8.0f, bright, 1.0f);
     EXPECT_NEAR(m_sketch.gain(m_line, 2, 8.0f, bright, kBare), 0.0f, 1e-3f) << "the same again";
     EXPECT_NEAR(m_sketch.gain(m_line, 2, 8.0f, dark, kBare), 160.0f, 1e-3f);
-    m_sketch.put(m_line, 2, 8.0f, dark);
+    m_sketch.put(m_line, 2, 8.0f, dark, 1.0f);
     EXPECT_NEAR(m_sketch.gain(m_line, 2, 8.0f, bright, kBare), -160.0f, 1e-3f) << "harm";
+}
+
+TEST_F(SketchOfAStep, ThinPaintImprovesByItsShare)
+{
+    const Shade dark { 40, 0, 0 }, bright { 200, 0, 0 };
+    m_sketch.put(m_line, 2, 8.0f, bright, 0.1f);
+    EXPECT_NEAR(m_sketch.gain(m_line, 2, 8.0f, dark, kBare), 160.0f, 1e-3f) << "bare canvas is covered by it";
+    m_sketch.put(m_line, 2, 8.0f, dark, 0.25f);
+    EXPECT_NEAR(m_sketch.gain(m_line, 2, 8.0f, dark, kBare), 120.0f, 1e-3f);
+}
+
+TEST(ShadePyramid, HasCoarserPicturesForWiderStrokes)
+{
+    const test::Picture step = test::make("step", 96, 64, [](int x, int) { return x < 48 ? 40 : 200; });
+    const ShadePyramid pyramid(view_of(step), test::backwards);
+    EXPECT_EQ(&pyramid.for_width(3.0f), &pyramid.finest());
+    int shrunk = 1;
+    for (const float width : { 3.0f, 16.0f, 32.0f, 64.0f, 1e6f }) {
+        const ShadePicture& picture = pyramid.for_width(width);
+        EXPECT_GE(picture.shrunk(), shrunk);
+        shrunk = picture.shrunk();
+        // Places mean the same in all of them.
+        if (width <= 64.0f) {
+            EXPECT_NEAR(picture.between({ 12, 30 })[0], 40.0f, 1.0f) << width;
+            EXPECT_NEAR(picture.between({ 47.5f, 30 })[0], 120.0f, 1.0f) << width;
+            EXPECT_NEAR(picture.at({ 84, 30 })[0], 200.0f, 1.0f) << width;
+        }
+    }
+    EXPECT_EQ(pyramid.for_width(64.0f).shrunk(), 8);
 }
 
 TEST_F(SketchOfAStep, PaintBelowStaysBelow)
 {
     const Shade dark { 40, 0, 0 }, bright { 200, 0, 0 };
-    m_sketch.put(m_line, 2, 8.0f, bright);
+    m_sketch.put(m_line, 2, 8.0f, bright, 1.0f);
     m_sketch.put_below(m_line, 2, 8.0f, dark);
     EXPECT_NEAR(m_sketch.gain(m_line, 2, 8.0f, dark, kBare), 160.0f, 1e-3f) << "bright is still on top";
 }
@@ -65,7 +94,7 @@ TEST_F(SketchOfAStep, BareCellsAreThoseNotPainted)
     const std::size_t cells = m_sketch.bare_cells().size();
     EXPECT_EQ(cells, 30u * 20u);
     EXPECT_FALSE(m_sketch.is_covered({ 10, 20 }));
-    m_sketch.put(m_line, 2, 8.0f, { 40, 0, 0 });
+    m_sketch.put(m_line, 2, 8.0f, { 40, 0, 0 }, 1.0f);
     EXPECT_TRUE(m_sketch.is_covered({ 10, 20 }));
     EXPECT_FALSE(m_sketch.is_covered({ 40, 20 }));
     const std::vector<Vec2> bare = m_sketch.bare_cells();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "painting/scene.h"
 
@@ -15,7 +16,7 @@ bool same(const Strokes& a, const Strokes& b)
 {
     const auto same_stroke = [](const Stroke& x, const Stroke& y) {
         return x.first == y.first && x.count == y.count && x.width == y.width && x.vertex == y.vertex
-            && x.level == y.level && x.variation == y.variation;
+            && x.level == y.level && x.variation == y.variation && x.opacity == y.opacity;
     };
     const auto same_point = [](Vec2 x, Vec2 y) {
         return x.x == y.x && x.y == y.y;
@@ -90,6 +91,60 @@ TEST(Strokes, AreFewerWhenMoreIsTolerated)
         EXPECT_LT(count, before) << tolerance;
         before = count;
     }
+}
+
+TEST(Strokes, AreLeftOutByChanceBelowFullCover)
+{
+    const PaintedScene scene(test::scene(160, 120));
+    StrokeOptions all, half, none;
+    all.tolerance = half.tolerance = none.tolerance = 0.0f;
+    half.cover = 0.5f;
+    none.cover = 0.0f;
+    const double count = double(scene.strokes(all).strokes.size());
+    EXPECT_NEAR(double(scene.strokes(half).strokes.size()), 0.5 * count, 0.1 * count);
+    EXPECT_TRUE(scene.strokes(none).strokes.empty());
+}
+
+/// Noise changes how thickly strokes are painted, and hardly which ones and where: of the strokes on one of two pictures, most
+/// are on the other, too.
+TEST(Strokes, AreMostlyTheSameUnderNoise)
+{
+    const auto noisy = [](std::uint32_t seed) {
+        return PaintedScene(test::make("noisy", 160, 120,
+                                       [=](int x, int y) {
+                                           const std::uint32_t bits =
+                                               scramble(std::uint32_t(x) + scramble(std::uint32_t(y) + seed));
+                                           const float triangular = signed_unit(bits) + signed_unit(scramble(bits));
+                                           return test::scene(x, y, 160, 120) + 2.4f * triangular;  // sigma 2
+                                       }))
+            .strokes({});
+    };
+    const auto thick = [](const Strokes& strokes) {
+        std::set<std::uint32_t> places;
+        for (const Stroke& s : strokes.strokes)
+            if (s.opacity > 0.5f && (s.vertex != kGhost || s.level == 0))
+                places.insert(s.variation);
+        return places;
+    };
+    const std::set<std::uint32_t> a = thick(noisy(1)), b = thick(noisy(2));
+    std::size_t both = 0;
+    for (const std::uint32_t place : a)
+        both += b.count(place);
+    EXPECT_GT(both, a.size() * 3 / 4);
+}
+
+TEST(Strokes, CoverTheCanvasWithTheWidestBrush)
+{
+    const PaintedScene flat(test::make("constant", 160, 120, [](int, int) { return 90; }));
+    StrokeOptions options;
+    options.max = 20.0f;
+    const Strokes strokes = flat.strokes(options);
+    // Narrower ones are only in the gaps, as there is nothing else to improve.
+    float wide = 0.0f, narrow = 0.0f;
+    for (const Stroke& s : strokes.strokes)
+        (s.width > 19.9f ? wide : narrow) += s.opacity * s.width * s.width * float(s.count);
+    EXPECT_GT(wide, 5.0f * narrow);
+    EXPECT_GT(wide, 160.0f * 120.0f);
 }
 
 TEST(Strokes, DoNotRunAcrossAnEdge)

@@ -22,7 +22,7 @@ class Brush {
 public:
     static constexpr int kColumns = 128, kRows = 64;  ///< size of the finest mask
 
-    /// One of the brushes that come with pimg: round, flat, bristle or knife. An empty brush for any other name.
+    /// One of the brushes that come with pimg: round, flat, bristle, knife, chalk or wash. An empty brush for any other name.
     static Brush named(const std::string& name);
 
     /// Makes a brush from a picture of width x height pixels, each 1 or more, with one variant. `alpha` and `heights` are
@@ -33,10 +33,12 @@ public:
     /// Whether named() knew no such brush.
     bool empty() const { return m_levels.empty(); }
     /// The names that named() knows.
-    static const char* names() { return "round|flat|bristle|knife"; }
+    static const char* names() { return "round|flat|bristle|knife|chalk|wash"; }
 
     /// How far the brightness of paint follows its height: paint of height h is 1 + grain() (h - 1/2) times as bright.
     float grain() const { return m_grain; }
+    /// How far the tooth of the canvas keeps paint off: 0 covers all, 1 only the raised half.
+    float tooth() const { return m_tooth; }
     /// Whether the ends are stretched, too, as for brushes from pictures.
     bool stretched() const { return m_stretched; }
 
@@ -69,7 +71,7 @@ public:
 private:
     void add_variant(std::vector<Paint> finest);
 
-    float m_grain = 0.0f;
+    float m_grain = 0.0f, m_tooth = 0.0f;
     bool m_stretched = false;
     int m_variants = 0;
     std::vector<std::vector<std::vector<Paint>>> m_levels;  ///< [variant][level]

@@ -34,6 +34,7 @@ struct DabOptions {
     /// 4^(1 - 2 m): 1 asks for strokes a quarter as wide, 0 for strokes four times as wide, and 0.5 changes nothing.
     /// Null: none.
     const float* detail = nullptr;
+    Level last = kGhost;  ///< splits after this level are not replayed; above the finest: all are
 
     /// The factor that `detail` gives at place `p` of a picture of the given size; 1 without a map.
     float scale(Vec2 p, int width, int height) const;
@@ -49,9 +50,10 @@ Status collect_dabs(const Hierarchy& hierarchy, const DirectionField& field, con
 struct Stroke {
     Index first = 0, count = 0;   ///< its points in Strokes::points: from `first` on, `count` of them, 2 or more
     float width = 0.0f;           ///< of the brush in pixels
-    Index vertex = kGhost;        ///< the vertex it stands for; kGhost if it only fills a gap between others
+    Index vertex = kGhost;        ///< the vertex it stands for; kGhost if it only covers canvas
     Level level = 0;              ///< level at which its piece was measured
     std::uint32_t variation = 0;  ///< random bits; plan_strokes() makes them of place, size and seed, except for gaps
+    float opacity = 1.0f;         ///< 0..1: how much of its paint the stroke leaves
 };
 
 /// Strokes in the order in which they are painted. A stroke reaches half its width beyond the ends of its polyline.
@@ -65,9 +67,12 @@ struct Strokes {
 
 /// How strokes are planned.
 struct StrokeOptions : DabOptions {
-    float length = 1.0f;     ///< factor on the length that pieces suggest, 0..10
-    float tolerance = 3.0f;  ///< least mean improvement of the picture by a stroke, in 8-bit steps; 0: all are painted
-    float crossing = 14.0f;  ///< colour difference that no stroke runs across, in 8-bit steps
+    float length = 1.0f;  ///< factor on the length of strokes, which is about four widths, 0..10
+    /// Mean improvement of the picture by a stroke, in 8-bit steps, from which on it is painted: thinly at first, and fully
+    /// from twice as much on. 0: all are painted.
+    float tolerance = 3.0f;
+    float cover = 1.0f;         ///< share of the places that get a stroke, 0..1; below 1, gaps are left
+    float crossing = 14.0f;     ///< colour difference that no stroke runs across, in 8-bit steps
     float jitter_angle = 0.0f;  ///< largest random turn, as a share 0..1 of 45 degrees
     float jitter_size = 0.0f;   ///< largest random change of the width, as a share 0..1 of it
     std::uint32_t seed = 1;     ///< another seed gives other random changes
