@@ -19,6 +19,31 @@ constexpr int kStrip = 64;  ///< rows of a task
 /// Largest change of a slope's brightness at relief = 1, as a share of it. Chosen by eye; more: deeper tiles.
 constexpr float kLight = 0.6f;
 
+constexpr float kRootOfHalf = 0.7071f;  ///< the light comes from the upper left, at 45 degrees
+
+/// Change of brightness of a slope that faces the light: it falls towards the joint.
+float slope(float depth, const TileOptions& options)
+{
+    if (options.bevel <= 0.0f || depth >= options.bevel)
+        return 0.0f;
+    return kLight * options.relief * std::clamp(1.0f - depth / options.bevel, 0.0f, 1.0f);
+}
+
+/// Brightness of glass: light that falls through the middle of a pane is not held back by the lead. By eye.
+float glow(float depth)
+{
+    constexpr float kRim = 0.35f, kReach = 9.0f;  // share that the lead takes at most; how far, in pixels
+    return 1.1f - kRim * kReach / (kReach + std::max(0.0f, depth));
+}
+
+/// Brightness of lead, which is round: its side towards the light is bright. By eye.
+float lead(float inside, float half, float facing)
+{
+    constexpr float kShine = 0.9f;
+    const float slope = std::clamp(half > 0.0f ? inside / half : 0.0f, 0.0f, 1.0f);
+    return 1.0f - kShine * slope * facing;
+}
+
 struct Depth {
     float inside, x, y;
 };
@@ -43,6 +68,38 @@ Depth depth_of(Vec2 p, const std::vector<Vec2>& polygon, Vec2 far_corner)
             nearest = { distance, distance > 0 ? ox / distance : 0.0f, distance > 0 ? oy / distance : 0.0f };
     }
     return in ? nearest : Depth { -nearest.inside, -nearest.x, -nearest.y };
+}
+
+/// The mean colour of every tile in each channel, changed by chance; that of glass is also more saturated.
+std::vector<std::vector<float>> tile_colours(const Tiling& tiling, Index tiles, const TileOptions& options,
+                                             const std::vector<float*>& channels)
+{
+    constexpr float kWarmth = 0.6f;      // change of warmth as a share of that of brightness; by eye
+    constexpr float kSaturation = 1.3f;  // of glass; by eye
+    std::vector<std::vector<float>> colours(channels.size(), std::vector<float>(tiles));
+    run(options.parallel, channels.size(), [&](std::size_t c) {
+        std::vector<double> sums(tiles, 0.0), counts(tiles, 0.0);
+        for (std::size_t i = 0; i < tiling.tile.size(); ++i) {
+            sums[tiling.tile[i]] += double(channels[c][i]);
+            counts[tiling.tile[i]] += 1.0;
+        }
+        for (Index t = 0; t < tiles; ++t)
+            colours[c][t] = counts[t] > 0.0 ? float(sums[t] / counts[t]) : 0.0f;
+    });
+    const bool coloured = channels.size() > 2;
+    for (Index t = 0; t < tiles; ++t) {
+        const std::uint32_t chance = scramble(t + scramble(options.seed));
+        const float light = 1.0f + options.variation * signed_unit(chance);
+        const float warm = coloured ? kWarmth * options.variation * signed_unit(scramble(chance)) : 0.0f;
+        const float grey = coloured ? (colours[0][t] + colours[1][t] + colours[2][t]) / 3.0f : 0.0f;
+        for (std::size_t c = 0; c < channels.size(); ++c) {
+            float& colour = colours[c][t];
+            if (options.leading > 0.0f && coloured && c < 3)
+                colour = grey + kSaturation * (colour - grey);
+            colour *= light * (c == 0 ? 1.0f + warm : c == 2 ? 1.0f - warm : 1.0f);
+        }
+    }
+    return colours;
 }
 
 Tiling empty_tiling(const Mesh& mesh)
@@ -108,31 +165,26 @@ Tiling tile(const Mesh& mesh, const ParallelFor& parallel)
 void lay_mosaic(const Tiling& tiling, Index tiles, const TileOptions& options, const std::vector<float>& grout_colours,
                 const std::vector<float*>& channels)
 {
+    // Half the width of a joint, but less for slivers, of which two thirds must stay tile.
+    std::vector<float> joints(tiles, 0.0f);
+    for (std::size_t i = 0; i < tiling.tile.size(); ++i)
+        joints[tiling.tile[i]] = std::max(joints[tiling.tile[i]], tiling.inside[i]);
+    const float width = options.leading > 0.0f ? options.leading : options.grout;
+    for (float& joint : joints)
+        joint = std::min(0.5f * width, joint / 3.0f);
+    const std::vector<std::vector<float>> colours = tile_colours(tiling, tiles, options, channels);
     run(options.parallel, channels.size(), [&](std::size_t c) {
         float* samples = channels[c];
-        std::vector<double> sums(tiles, 0.0), counts(tiles, 0.0);
-        std::vector<float> joints(tiles, 0.0f);
         for (std::size_t i = 0; i < tiling.tile.size(); ++i) {
             const Index t = tiling.tile[i];
-            sums[t] += double(samples[i]);
-            counts[t] += 1.0;
-            joints[t] = std::max(joints[t], tiling.inside[i]);
-        }
-        // Half the width of a joint, but less for slivers, of which two thirds must stay tile.
-        for (float& joint : joints)
-            joint = std::min(0.5f * options.grout, joint / 3.0f);
-        for (std::size_t i = 0; i < tiling.tile.size(); ++i) {
-            const Index t = tiling.tile[i];
-            const float mean = float(sums[t] / counts[t]), depth = tiling.inside[i] - joints[t];
-            float shade = mean;
-            if (options.bevel > 0.0f && depth < options.bevel) {
-                // The slope falls towards the joint; it is lit where it faces the upper left.
-                const float slope = std::clamp(1.0f - depth / options.bevel, 0.0f, 1.0f);
-                const float facing = 0.7071f * (tiling.away_x[i] + tiling.away_y[i]);
-                shade = mean * (1.0f + kLight * options.relief * slope * facing);
-            }
-            const float cover = options.grout > 0.0f ? std::clamp(depth + 0.5f, 0.0f, 1.0f) : 1.0f;
-            samples[i] = grout_colours[c] + cover * (shade - grout_colours[c]);
+            const float depth = tiling.inside[i] - joints[t];
+            const float facing = kRootOfHalf * (tiling.away_x[i] + tiling.away_y[i]);
+            const float shade =
+                colours[c][t] * (options.leading > 0.0f ? glow(depth) : 1.0f + slope(depth, options) * facing);
+            const float cover = width > 0.0f ? std::clamp(depth + 0.5f, 0.0f, 1.0f) : 1.0f;
+            const float joint =
+                grout_colours[c] * (options.leading > 0.0f ? lead(tiling.inside[i], joints[t], facing) : 1.0f);
+            samples[i] = joint + cover * (shade - joint);
         }
     });
 }

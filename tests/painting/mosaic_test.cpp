@@ -88,4 +88,44 @@ TEST(Mosaic, ConstantPictureShowsOnlyJointsAndSlopes)
     EXPECT_GT(dark, 100u);
 }
 
+TEST(Mosaic, TilesChangeByChanceAndTheSeed)
+{
+    const TiledScene scene(test::make("constant", 90, 60, [](int, int) { return 50; }));
+    const auto laid = [&](float variation, std::uint32_t seed) {
+        std::vector<float> samples = scene.samples;
+        lay_mosaic(scene.tiling, scene.mesh.size(), { 0.0f, 0.0f, 0.0f, {}, variation, 0.0f, seed }, { 0.0f },
+                   { samples.data() });
+        return samples;
+    };
+    const std::vector<float> a = laid(0.2f, 1);
+    EXPECT_EQ(laid(0.0f, 1), scene.samples);
+    EXPECT_NE(a, laid(0.2f, 2));
+    std::vector<float> of_tile(scene.mesh.size(), 0.0f);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        EXPECT_TRUE(a[i] >= 40.0f - 1e-3f && a[i] <= 60.0f + 1e-3f) << a[i];
+        float& known = of_tile[scene.tiling.tile[i]];
+        EXPECT_TRUE(known == 0.0f || known == a[i]) << "one colour to a tile";
+        known = a[i];
+    }
+}
+
+TEST(Mosaic, GlassGlowsBetweenRoundLead)
+{
+    const TiledScene scene(test::make("constant", 90, 60, [](int, int) { return 50; }));
+    std::vector<float> samples = scene.samples;
+    TileOptions options;
+    options.leading = 4.0f;
+    lay_mosaic(scene.tiling, scene.mesh.size(), options, { 10.0f }, { samples.data() });
+    std::size_t lead = 0, shining = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        lead += samples[i] < 25.0f;
+        shining += samples[i] > 10.5f && samples[i] < 19.0f;
+        if (scene.tiling.inside[i] > 6.0f) {
+            EXPECT_TRUE(samples[i] > 30.0f && samples[i] <= 55.0f) << samples[i];
+        }
+    }
+    EXPECT_GT(lead, samples.size() / 20);
+    EXPECT_GT(shining, 50u) << "the side towards the light";
+}
+
 }  // namespace
