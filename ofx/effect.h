@@ -24,9 +24,8 @@ struct Parameter {
     bool is_choice() const { return !words.empty(); }
     bool may_be_unset() const { return option.default_value.empty() && (is_number() || is_choice()); }
     bool is_number() const { return option.type == "int" || option.type == "float"; }
-    bool is_length() const { return option.unit == "pixels"; }  ///< it shrinks with the picture
-    double preset() const;                                      ///< default of a number; kUnset if there is none
-    double preset_index() const;                                ///< default of a choice
+    double preset() const;        ///< default of a number; kUnset if there is none
+    double preset_index() const;  ///< default of a choice
 };
 
 constexpr char kAutomatic[] = "automatic";

@@ -7,15 +7,16 @@ namespace pimg_ofx {
 
 namespace {
 
-/// What imagebufalgo.h says of a filter: it returns the source if `key` has that value and `unless` is not given.
+/// What imagebufalgo.h says of a filter: it returns the source if `key` has that value and neither of `unless` is given.
 struct Rule {
-    const char *filter, *key, *value, *unless;
+    const char *filter, *key, *value;
+    const char* unless[2];
 };
 constexpr Rule kRules[] = {
-    { "feature_lowpass", "strength", "0", "" },
-    { "feature_lowpass", "noise", "0", "" },
-    { "detail_enhance", "gain", "1", "curve" },
-    { "paint", "opacity", "0", "canvas" },
+    { "feature_lowpass", "strength", "0", { "", "" } },
+    { "feature_lowpass", "noise", "0", { "", "" } },
+    { "detail_enhance", "gain", "1", { "curve", "" } },
+    { "paint", "opacity", "0", { "canvas", "style" } },
 };
 
 }  // namespace
@@ -28,9 +29,12 @@ bool is_identity(const Instance& instance, OfxTime time)
     std::string error;
     if (!filter.bind(instance.options(Owner::filter, time), bound, error))
         return false;
+    const auto is_given = [&](const char* key) {
+        return *key != '\0' && !instance.option(key, time).empty();
+    };
     for (const Rule& rule : kRules)
         if (std::strcmp(filter.name, rule.filter) == 0 && instance.option(rule.key, time) == rule.value
-            && (*rule.unless == '\0' || instance.option(rule.unless, time).empty()))
+            && !is_given(rule.unless[0]) && !is_given(rule.unless[1]))
             return true;
     return false;
 }

@@ -99,8 +99,7 @@ std::string Instance::number_text(const Parameter& parameter, OfxTime time, doub
     double given = whole ? number(parameter.name, time) : real(parameter.name, time);
     if (parameter.may_be_unset() && given <= kUnset)
         return "";
-    if (parameter.is_length())
-        given *= scale;
+    given = pimg::resized_length(option, given, scale);
     // Hosts may give values outside of the range that they were told.
     if (option.min != option.max)
         given = std::clamp(given, option.min, option.max);

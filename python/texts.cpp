@@ -122,12 +122,14 @@ For the same ProgressiveImage, another number of regions takes one pass, and the
       R"(labels: uint32 numbers from 0, one channel; mean: like the source; boundaries: one channel, 1 or 0.)",
       kFilterErrors },
     { "paint",
-      R"(Paints the picture with brush strokes that follow its forms (paper, section 5.2).)",
+      R"(Paints the picture with brush strokes that follow its forms (paper, section 5.2).
+
+Options that are None come from the style.)",
       { "roi", "nthreads" },
       "Like the source.",
       kFilterErrors },
     { "mosaic",
-      R"(Makes a mosaic whose tiles are the dual pieces of a level, in their mean colour (paper, section 7).)",
+      R"(Makes a mosaic whose tiles are the dual pieces of a level, or cells grown from them, in their mean colour (paper, section 7).)",
       { "roi", "nthreads" },
       "Like the source.",
       kFilterErrors },

@@ -159,7 +159,7 @@ def dual_pieces(g):
     g.figure('fig04', 'Fig. 4: dual pieces',
              'The pieces that 400 and 3000 vertices stand for, outlined as the polygons through the centres of the '
              'triangles around each vertex.',
-             ['pimgtool chelsea.png --mosaic:tiles=%d:grout=0.7:bevel=0:colour=1 -o fig04_%d.png' % (n, n)
+             ['pimgtool chelsea.png --mosaic:shape=pieces:variation=0:tiles=%d:grout=0.7:bevel=0:colour=1 -o fig04_%d.png' % (n, n)
               for n in (400, 3000)])
 
 
@@ -212,11 +212,11 @@ def contrast_envelope(g):
 def painterly(g):
     for name, photo in (('fig10', 'astronaut.png'), ('fig11', 'coffee.png')):
         g.figure(name, 'Fig. %s: painterly rendering' % name[3:],
-                 'The photograph (%s), painted at the defaults, with larger brushes, and with thick paint on a coloured '
-                 'canvas.' % PHOTOS[photo][2],
+                 'The photograph (%s), painted at the defaults, with larger brushes, and with a knife and '
+                 'thick paint.' % PHOTOS[photo][2],
                  ['pimgtool %s --paint -o %s_default.png' % (photo, name),
                   'pimgtool %s --paint:min=8:max=60:brush=flat -o %s_large.png' % (photo, name),
-                  'pimgtool %s --paint:min=6:max=48:impasto=0.7:canvas=0.85,0.8,0.7 -o %s_impasto.png' % (photo, name)],
+                  'pimgtool %s --paint:style=impasto -o %s_impasto.png' % (photo, name)],
                  [photo] + ['%s_%s.png' % (name, n) for n in ('default', 'large', 'impasto')])
 
 

@@ -73,10 +73,11 @@ struct Names {
 constexpr BareValue kSwitch = { "1", "", "" };
 
 template<class Options, Function<Options> Run, FilterOutput Output>
-Filter row(const Names& names, const BareValue& bare = kSwitch)
+Filter row(const Names& names, const BareValue& bare = kSwitch, const std::vector<Preset>& (*presets)() = nullptr)
 {
     return {
-        names.name, names.command, names.summary, bare, Output, describe_options<Options>, bind<Options, Run, Output>
+        names.name, names.command, names.summary, bare, Output, describe_options<Options>, bind<Options, Run, Output>,
+        presets
     };
 }
 
@@ -110,7 +111,7 @@ const std::vector<Filter>& filter_table()
             { "segment", "--segment", "partitions the picture into connected regions of similar colour" },
             { "REGIONS", "regions", "" }),
         row<PaintOptions, iba::paint, Out::picture>(
-            { "paint", "--paint", "paints with brush strokes that follow the picture's forms" }),
+            { "paint", "--paint", "paints with brush strokes that follow the picture's forms" }, kSwitch, paint_styles),
         row<MosaicOptions, iba::mosaic, Out::picture>(
             { "mosaic", "--mosaic", "makes a mosaic of tiles that follow the picture's forms" }),
         row<InkOptions, iba::ink, Out::picture>({ "ink", "--ink", "draws the picture with pen and ink" }),

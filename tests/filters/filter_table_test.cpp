@@ -108,7 +108,7 @@ TEST(FilterTable, OlderSpellingsOfKeysAreUnderstood)
             if (option.alias.empty())
                 continue;
             ++aliases;
-            bound(row, { { option.alias, option.default_value } });
+            bound(row, { { option.alias, option.default_value.empty() ? "1" : option.default_value } });
         }
     EXPECT_GE(aliases, 2);  // "color" of mosaic, "jitter_color" of paint
 }

@@ -130,7 +130,7 @@ class Effects(ofx_host.HostTest):
         for effect, options, expected in (
             ("feature_lowpass", "strength=0", 1), ("feature_lowpass", "strength=0.1", 0), ("feature_lowpass", "noise=0", 1),
             ("detail_enhance", "gain=1", 1), ("detail_enhance", "gain=2", 0), ("detail_enhance", "gain=1 curve=0:2", 0),
-            ("paint", "opacity=0", 1), ("paint", "opacity=0 canvas=white", 0), ("hdr_compress", "", 0),
+            ("paint", "opacity=0", 1), ("paint", "opacity=0 canvas=white", 0), ("paint", "opacity=0 style=wash", 0), ("hdr_compress", "", 0),
         ):
             said = self.host("render", effect, "in.exr", "out.exr", *options.split(), "--identity", 1)
             self.assertIn(f"identity: {expected}", said, (effect, options))

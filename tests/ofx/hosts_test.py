@@ -42,8 +42,8 @@ class Hosts(ofx_host.HostTest):
 
     def test_parameters_are_those_of_the_tables(self):
         parameters = self.parameters("paint")
-        self.assertEqual(parameters["opacity"]["OfxParamPropDefault"], "1")
-        self.assertEqual((parameters["min"]["OfxParamPropMin"], parameters["min"]["OfxParamPropMax"]), ("1", "1000"))
+        self.assertEqual(parameters["opacity"]["OfxParamPropDefault"], "-1", "not given: it is the style's")
+        self.assertEqual((parameters["min"]["OfxParamPropMin"], parameters["min"]["OfxParamPropMax"]), ("-1", "1000"))
         self.assertIn("pixels", parameters["min"]["OfxParamPropHint"])
         self.assertNotIn("strokes", parameters, "files are not written by renders")
         words = self.parameters("segment")["output"]["OfxParamPropChoiceEnum"]

@@ -71,7 +71,8 @@ struct Command {
     std::vector<pimg::OptionInfo> (*keys)();  ///< of the :key=value suffix; null for none
     /// Checks all that can be checked now and appends steps or sets a switch of `program`.
     std::function<bool(const Call&, Program&, std::string& error)> prepare;
-    bool general = false;  ///< about all frames; see take_settings()
+    bool general = false;                                     ///< about all frames; see take_settings()
+    const std::vector<pimg::Preset>& (*presets)() = nullptr;  ///< as in pimg::Filter
 };
 
 /// Headed part of the table: --help and the manual show them so.

@@ -112,8 +112,10 @@ CommandGroup filters_group()
     CommandGroup group { "Filters on the progressive image of the top picture", {} };
     group.commands.push_back(operation<pimg::BuildOptions>(
         "--build", "builds the progressive image with these options, for the filters that follow", build));
-    for (const pimg::Filter& row : pimg::filter_table())
+    for (const pimg::Filter& row : pimg::filter_table()) {
         group.commands.push_back(std::string_view(row.name) == "hdr_compress" ? hdr_compress_row(row) : filter(row));
+        group.commands.back().presets = row.presets;
+    }
     return group;
 }
 

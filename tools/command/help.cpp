@@ -2,6 +2,8 @@
 #include "command/help.h"
 
 #include <algorithm>
+#include <map>
+#include <vector>
 
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
@@ -45,6 +47,45 @@ std::string version_text()
     return format("pimgtool {} (OpenImageIO {}.{}.{})\n", PIMG_VERSION_STRING, v / 10000, v / 100 % 100, v % 100);
 }
 
+namespace {
+
+/// The values of a preset, by key.
+std::map<std::string, std::string> values_of(const pimg::Preset& preset)
+{
+    pimg::OptionTexts texts;
+    std::string error;
+    pimg::split_options(preset.values, texts, error);
+    return { texts.begin(), texts.end() };
+}
+
+/// A table of the presets: a column for each, a row for every option they set.
+std::string presets_text(const Command& command)
+{
+    std::string text = "      values where none is given:\n";
+    std::vector<std::map<std::string, std::string>> columns;
+    std::vector<std::size_t> widths;
+    text += format("      {:<13}", "style");
+    for (const pimg::Preset& preset : command.presets()) {
+        columns.push_back(values_of(preset));
+        widths.push_back(std::string(preset.name).size());
+        for (const auto& [key, value] : columns.back())
+            widths.back() = std::max(widths.back(), value.size());
+        text += format("  {:>{}}", preset.name, widths.back());
+    }
+    text += '\n';
+    for (const pimg::OptionInfo& option : command.keys()) {
+        if (columns[0].count(option.key) == 0)
+            continue;
+        text += format("      {:<13}", option.key);
+        for (std::size_t i = 0; i < columns.size(); ++i)
+            text += format("  {:>{}}", columns[i][option.key], widths[i]);
+        text += '\n';
+    }
+    return text;
+}
+
+}  // namespace
+
 std::string help_text(const Command& command)
 {
     const std::string words = *command.words == '\0' ? "" : format(" {}", command.words);
@@ -61,7 +102,7 @@ std::string help_text(const Command& command)
     for (const pimg::OptionInfo& option : options)
         text += format("      {:<{}}  {:<{}}  {}\n", option.key + "=" + option.default_value, keys, values_of(option),
                        values, option.help);
-    return text;
+    return text + (command.presets ? presets_text(command) : "");
 }
 
 std::string help_text()

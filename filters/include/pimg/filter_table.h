@@ -57,6 +57,8 @@ struct Filter {
     std::vector<OptionInfo> (*options)();  ///< all options of the filter
     /// Sets and checks options given as text. On failure returns false with one line in `error`.
     bool (*bind)(const OptionTexts& texts, BoundFilter& filter, std::string& error);
+    const std::vector<Preset>& (
+        *presets)();  ///< the values of options that are not given, by style; null: there are none
 };
 
 /// All filters. The first is `level`: a file is also read through it when only its options are given, without its name.

@@ -81,9 +81,22 @@ bool check_options(const T& options, std::string& error);
 template<class T>
 bool same_options(const T& a, const T& b);
 
+/// Unit of a length in pixels that may also be given as a share of the picture's diagonal, below 1.
+constexpr char kPixelsOrShare[] = "pixels or share";
+
+/// What a number of this option is in the same picture `factor` times as large: lengths in pixels grow with it.
+double resized_length(const OptionInfo& option, double value, double factor);
+
 /// Describes all options of the struct T, in the order of its table.
 template<class T>
 std::vector<OptionInfo> describe_options();
+
+/// A named set of values for options that are not given.
+struct Preset {
+    const char* name;
+    const char* values;   ///< pairs as on the command line: "min=4:brush=flat"
+    const char* summary;  ///< in one line
+};
 
 // ---- the options ------------------------------------------------------------------------------------------
 
@@ -198,31 +211,40 @@ struct HdrCompressOptions {
     std::string zones;
 };
 
-/// Painterly rendering (section 5.2). Sizes are in pixels.
+/// Painterly rendering (section 5.2). What is not set has the value of the style (paint_styles()): -1 and empty strings
+/// stand for "not set".
 struct PaintOptions {
-    float min = 3.0f;               ///< width of the narrowest brush
-    float max = 32.0f;              ///< width of the widest brush
-    std::string brush = "bristle";  ///< round, flat, bristle, knife, or a picture: alpha says where, grey how thick
-    float length = 1.0f;            ///< factor on the length of strokes
-    float tolerance = 3.0f;      ///< least improvement a stroke must bring, in 8-bit steps; 0: all strokes are painted
-    float opacity = 1.0f;        ///< opacity of every stroke; 0 leaves the canvas as it is
-    float impasto = 0.0f;        ///< strength of the light on the relief of the paint
-    float jitter_colour = 0.0f;  ///< largest random change of a stroke's brightness, as a share of it
-    float jitter_angle = 0.0f;   ///< largest random turn of a stroke, as a share of 45 degrees
-    float jitter_size = 0.0f;    ///< largest random change of a stroke's width, as a share of it
-    int seed = 1;                ///< another seed gives other random changes
-    std::string canvas;          ///< what is painted on: a colour or a picture; empty: the picture itself
+    std::string style = "oil";  ///< oil, impasto, wash, pastel or pointillist
+    float min = -1.0f;     ///< width of the narrowest brush in pixels or, below 1, as a share of the picture's diagonal
+    float max = -1.0f;     ///< width of the widest brush, in the same way
+    std::string brush;     ///< round, flat, bristle, knife, chalk, wash, or a picture: alpha says where, grey how thick
+    float length = -1.0f;  ///< factor on the length of strokes, which is about four widths
+    float tolerance = -1.0f;      ///< least improvement a stroke must bring, in 8-bit steps; 0: all strokes are painted
+    float cover = -1.0f;          ///< share of the places that get a stroke; 1: gaps are filled, too
+    float opacity = -1.0f;        ///< opacity of every stroke; 0 leaves the canvas as it is
+    float impasto = -1.0f;        ///< strength of the light on the relief of the paint
+    float jitter_colour = -1.0f;  ///< largest random change of a stroke's brightness and warmth, as a share
+    float jitter_angle = -1.0f;   ///< largest random turn of a stroke, as a share of 45 degrees
+    float jitter_size = -1.0f;    ///< largest random change of a stroke's width, as a share of it
+    int seed = 1;                 ///< another seed gives other random changes
+    std::string canvas;           ///< what is painted on: source (the picture itself), a colour or a picture
     std::string detail;   ///< picture that scales the brushes: white to a quarter, black to four times, 0.5 not at all
     std::string strokes;  ///< FILE.svg or FILE.json to write the strokes to; empty: none
 };
 
 /// A mosaic whose tiles are dual pieces (section 7).
 struct MosaicOptions {
-    int tiles = 2000;             ///< number of tiles
+    std::string shape =
+        "cells";         ///< cells: pieces made even and round, within the edges of the picture; pieces: as they are
+    int tiles = 2000;    ///< number of tiles
+    float round = 0.3f;  ///< how round the corners of cells are: their radius as a share of the tile's
+    float variation = 0.04f;      ///< largest random change of a tile's brightness and warmth, as a share
     float grout = 1.5f;           ///< width of the joints in pixels
     float bevel = 2.0f;           ///< width of the slope around a tile in pixels
     float relief = 0.5f;          ///< how strongly the slopes are lit
     std::string colour = "0.15";  ///< of the joints: white, black, a grey level or R,G,B, in the picture's units
+    float leading = 0.0f;  ///< stained glass: width in pixels of the lead between flat, glowing tiles; 0: a mosaic
+    int seed = 1;          ///< another seed gives other random changes
 };
 
 /// Pen and ink (section 7).
@@ -242,6 +264,12 @@ struct InkOptions {
     int seed = 1;                 ///< another seed gives other random changes
     std::string strokes;          ///< FILE.svg or FILE.json to write the lines to; empty: none
 };
+
+/// The styles of paint(). Each sets every option that may be "not set".
+const std::vector<Preset>& paint_styles();
+
+/// The same options with the values of their style where none is set. An unknown style changes nothing.
+PaintOptions with_style(const PaintOptions& options);
 
 template<>
 const std::vector<Option<BuildOptions>>& option_table<BuildOptions>();

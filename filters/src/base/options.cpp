@@ -393,24 +393,35 @@ const std::vector<Option<HdrCompressOptions>>& option_table<HdrCompressOptions>(
     return table;
 }
 
+double resized_length(const OptionInfo& option, double value, double factor)
+{
+    const bool share = option.unit == kPixelsOrShare;
+    if ((!share && option.unit != "pixels") || (share && value < 1.0))
+        return value;
+    return share ? std::max(1.0, factor * value) : factor * value;
+}
+
 template<>
 const std::vector<Option<PaintOptions>>& option_table<PaintOptions>()
 {
     using T = PaintOptions;
     static const std::vector<Option<T>> table = {
-        { &T::min, { "min", 1, 1000, "pixels", "", "width of the narrowest brush" } },
-        { &T::max, { "max", 1, 1000, "pixels", "", "width of the widest brush" } },
+        { &T::style,
+          { "style", 0, 0, "", "oil|impasto|wash|pastel|pointillist", "gives the options below that are not given" } },
+        { &T::min,
+          { "min", 0.0001, 1000, kPixelsOrShare, "", "width of the narrowest brush; below 1: share of the diagonal" } },
+        { &T::max,
+          { "max", 0.0001, 1000, kPixelsOrShare, "", "width of the widest brush; below 1: share of the diagonal" } },
         { &T::brush,
-          { "brush", 0, 0, "", "", "round, flat, bristle, knife, or a picture (alpha: where, grey: how thick)", "", "",
-            FileUse::read } },
+          { "brush", 0, 0, "", "", "round, flat, bristle, knife, chalk, wash, or a picture", "", "", FileUse::read } },
         { &T::length, { "length", 0, 10, "", "", "factor on the length of strokes" } },
         { &T::tolerance,
-          { "tolerance", 0, 255, "8-bit steps", "",
-            "least improvement a stroke must bring; 0: all strokes are painted" } },
+          { "tolerance", 0, 255, "8-bit steps", "", "least improvement by a stroke; 0: all strokes are painted" } },
+        { &T::cover, { "cover", 0, 1, "", "", "share of the places painted; below 1 the canvas shows" } },
         { &T::opacity, { "opacity", 0, 1, "", "", "opacity of every stroke; 0 leaves the canvas as it is" } },
         { &T::impasto, { "impasto", 0, 1, "", "", "strength of the light on the relief of the paint" } },
         { &T::jitter_colour,
-          { "jitter_colour", 0, 1, "", "", "largest random change of a stroke's brightness, as a share of it", "",
+          { "jitter_colour", 0, 1, "", "", "largest random change of a stroke's brightness and warmth", "",
             "jitter_color" } },
         { &T::jitter_angle,
           { "jitter_angle", 0, 1, "", "", "largest random turn of a stroke, as a share of 45 degrees" } },
@@ -418,11 +429,10 @@ const std::vector<Option<PaintOptions>>& option_table<PaintOptions>()
           { "jitter_size", 0, 1, "", "", "largest random change of a stroke's width, as a share of it" } },
         { &T::seed, { "seed", 0, kAnyInt, "", "", "another seed gives other random changes" } },
         { &T::canvas,
-          { "canvas", 0, 0, "", "", "canvas to paint on: white, black, R,G,B or a picture; else the source", "", "",
+          { "canvas", 0, 0, "", "", "canvas to paint on: source, white, black, R,G,B or a picture", "", "",
             FileUse::read } },
         { &T::detail,
-          { "detail", 0, 0, "", "", "picture that scales brushes: white to 1/4, black to 4 times, 0.5 not", "", "",
-            FileUse::read } },
+          { "detail", 0, 0, "", "", "picture that scales brushes: white by 1/4, black by 4", "", "", FileUse::read } },
         { &T::strokes,
           { "strokes", 0, 0, "", "", "FILE.svg or FILE.json to write the strokes to", "", "", FileUse::written } },
     };
@@ -434,13 +444,21 @@ const std::vector<Option<MosaicOptions>>& option_table<MosaicOptions>()
 {
     using T = MosaicOptions;
     static const std::vector<Option<T>> table = {
+        { &T::shape,
+          { "shape", 0, 0, "", "cells|pieces",
+            "cells: pieces made even, within the picture's edges; pieces: as they are" } },
         { &T::tiles,
           { "tiles", 4, kAnyInt, "tiles", "", "number of tiles, at least as many as the base mesh has vertices" } },
+        { &T::round, { "round", 0, 1, "", "", "how round the corners of cells are" } },
+        { &T::variation, { "variation", 0, 1, "", "", "largest random change of a tile's brightness and warmth" } },
         { &T::grout, { "grout", 0, 64, "pixels", "", "width of the joints" } },
         { &T::bevel, { "bevel", 0, 64, "pixels", "", "width of the slope around a tile" } },
         { &T::relief, { "relief", 0, 1, "", "", "how strongly the slopes are lit" } },
         { &T::colour,
           { "colour", 0, 0, "", "", "colour of the joints: white, black, a grey level or R,G,B", "", "color" } },
+        { &T::leading,
+          { "leading", 0, 64, "pixels", "", "stained glass: width of the lead between glowing tiles; 0: a mosaic" } },
+        { &T::seed, { "seed", 0, kAnyInt, "", "", "another seed gives other random changes" } },
     };
     return table;
 }

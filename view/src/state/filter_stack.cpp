@@ -78,9 +78,9 @@ OptionTexts for_reduced(const StackItem& item, int factor)
         return texts;
     for (const OptionInfo& option : item.filter->options()) {
         const std::string value = value_of(item.texts, option);
-        if (option.unit != "pixels" || value.empty())
+        if ((option.unit != "pixels" && option.unit != pimg::kPixelsOrShare) || value.empty())
             continue;
-        const double smaller = OIIO::Strutil::stod(value) / factor;
+        const double smaller = pimg::resized_length(option, OIIO::Strutil::stod(value), 1.0 / factor);
         const double kept = std::max(option.min, smaller);
         set_value(texts, option, pimg::format("{}", option.type == "int" ? std::round(kept) : kept));
     }

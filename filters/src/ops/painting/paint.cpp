@@ -88,9 +88,14 @@ bool load_brush(const std::string& name, Brush& brush, std::string& error)
     return true;
 }
 
+bool is_source(const std::string& canvas)
+{
+    return canvas.empty() || canvas == "source";
+}
+
 bool load_canvas(const PaintOptions& options, const ProgressiveImage::Data& data, Studio& studio, std::string& error)
 {
-    studio.on_the_picture = options.canvas.empty();
+    studio.on_the_picture = is_source(options.canvas);
     std::vector<float> colour;
     if (studio.on_the_picture) {
         studio.canvas = stored_channels(data);
@@ -99,7 +104,7 @@ bool load_canvas(const PaintOptions& options, const ProgressiveImage::Data& data
         for (int c = 0; c < data.colour.count(); ++c)
             studio.canvas.channels.emplace_back(data.hierarchy.mesh_pixels(), colour[std::size_t(c)]);
     } else if (!fitted(options.canvas, data, data.colour.count(), studio.canvas, error)) {
-        error = "canvas: expected a colour, such as white or 0.9,0.8,0.7, or a picture; " + error;
+        error = "canvas: expected source, a colour, such as white or 0.9,0.8,0.7, or a picture; " + error;
         return false;
     }
     return true;
@@ -107,10 +112,6 @@ bool load_canvas(const PaintOptions& options, const ProgressiveImage::Data& data
 
 bool load(const PaintOptions& options, const ProgressiveImage::Data& data, Studio& studio, std::string& error)
 {
-    if (options.max < options.min) {
-        error = format("max: {} is below min, {}", options.max, options.min);
-        return false;
-    }
     if (!check_strokes_name(options.strokes, error) || !load_brush(options.brush, studio.brush, error)
         || !load_canvas(options, data, studio, error))
         return false;
@@ -130,6 +131,28 @@ bool load(const PaintOptions& options, const ProgressiveImage::Data& data, Studi
     return true;
 }
 
+/// The options with what the style gives, and with sizes in pixels.
+bool resolve(const PaintOptions& given, const OIIO::ImageSpec& picture, PaintOptions& options, std::string& error)
+{
+    options = with_style(given);
+    const float diagonal = std::hypot(float(picture.width), float(picture.height));
+    const auto pixels = [&](float size) {
+        return std::max(1.0f, size < 1.0f ? size * diagonal : size);
+    };
+    const bool comparable = (options.min < 1.0f) == (options.max < 1.0f);
+    if (comparable && options.max < options.min) {
+        error = format("max: {} is below min, {}", options.max, options.min);
+        return false;
+    }
+    // If one is in pixels and the other a share, it depends on the picture which is larger. The one given counts.
+    const bool min_counts = given.min >= 0.0f;
+    options.min = pixels(options.min);
+    options.max = pixels(options.max);
+    (min_counts ? options.max : options.min) =
+        min_counts ? std::max(options.max, options.min) : std::min(options.max, options.min);
+    return true;
+}
+
 StrokeOptions stroke_options(const PaintOptions& options, const Studio& studio, const ParallelFor& parallel)
 {
     StrokeOptions strokes;
@@ -138,6 +161,7 @@ StrokeOptions stroke_options(const PaintOptions& options, const Studio& studio, 
     strokes.detail = studio.detail.empty() ? nullptr : studio.detail.data();
     strokes.length = options.length;
     strokes.tolerance = options.tolerance;
+    strokes.cover = options.cover;
     strokes.jitter_angle = options.jitter_angle;
     strokes.jitter_size = options.jitter_size;
     strokes.seed = std::uint32_t(options.seed);
@@ -179,6 +203,10 @@ void apply_alpha(const ProgressiveImage::Data& data, const OwnedChannels& pictur
         }
 }
 
+/// Gradients, in 8-bit steps per pixel, that give strokes no direction. With half of it, strokes in flat places turn with the
+/// noise, and a painting changes by a tenth more with it (docs/internals.md).
+constexpr float kNoise = 8.0f;
+
 /// Paints on studio.canvas.
 bool paint_canvas(ProgressiveImage::Data& data, const PaintOptions& options, const ParallelFor& parallel,
                   Studio& studio, std::string& error)
@@ -187,7 +215,7 @@ bool paint_canvas(ProgressiveImage::Data& data, const PaintOptions& options, con
     if (!eye_channels(data, parallel, eye, error))
         return false;
     const ChannelsView guides = eye.view();
-    const DirectionField field(guides, parallel);
+    const DirectionField field(guides, parallel, kNoise);
     const StrokeOptions planning = stroke_options(options, studio, parallel);
     Strokes strokes;
     const Status status = plan_strokes(data.hierarchy, guides, field, planning, strokes);
@@ -215,7 +243,7 @@ bool paint_canvas(ProgressiveImage::Data& data, const PaintOptions& options, con
     settings.jitter_colour = options.jitter_colour;
     settings.edges = &guides;
     settings.crossing = planning.crossing;
-    settings.ground = studio.on_the_picture ? nullptr : &ground;
+    settings.ground = studio.on_the_picture || options.cover < 1.0f ? nullptr : &ground;
     settings.parallel = parallel;
     paint_strokes(strokes, colours, studio.brush, settings, canvas);
     light_relief(canvas, options.impasto, parallel);
@@ -232,18 +260,20 @@ bool paint_canvas(ProgressiveImage::Data& data, const PaintOptions& options, con
 
 }  // namespace
 
-bool on_hierarchy::paint(ImageBuf& dst, const ProgressiveImage& src, const PaintOptions& options, ROI roi, int nthreads)
+bool on_hierarchy::paint(ImageBuf& dst, const ProgressiveImage& src, const PaintOptions& given, ROI roi, int nthreads)
 {
     const auto make = [&](ProgressiveImage::Data& data, const ParallelFor& parallel, PictureResult& result,
                           std::string& error) {
         Studio studio;
-        if (!load(options, data, studio, error) || !paint_canvas(data, options, parallel, studio, error))
+        PaintOptions options;
+        if (!resolve(given, data.picture, options, error) || !load(options, data, studio, error)
+            || !paint_canvas(data, options, parallel, studio, error))
             return false;
         const bool untouched = options.opacity == 0.0f && studio.on_the_picture;
         result = { std::move(studio.canvas.channels), untouched ? Specials::restored : Specials::replaced, Seams::cut };
         return true;
     };
-    return filter_picture({ dst, src, roi, nthreads }, options, ResultType::as_source, make);
+    return filter_picture({ dst, src, roi, nthreads }, given, ResultType::as_source, make);
 }
 
 }  // namespace ImageBufAlgo

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <pimg/imagebufalgo.h>
+#include <pimg/option_text.h>
 
 #include "core/pictures.h"
 
@@ -142,7 +143,7 @@ TEST(paint, half_stays_finite)
 TEST(paint, covers_a_foreign_canvas)
 {
     const ImageBuf src = picture(160, 120, OIIO::TypeDesc::FLOAT, 3);
-    for (const char* brush : { "round", "flat", "bristle", "knife" }) {
+    for (const char* brush : { "round", "flat", "bristle", "knife", "wash" }) {
         pimg::PaintOptions options;
         options.brush = brush;
         options.canvas = "100";
@@ -166,8 +167,84 @@ TEST(paint, says_what_is_wrong)
     EXPECT_NE(message([](auto& o) { o.detail = "no/such.png"; }).find("detail: "), std::string::npos);
     EXPECT_NE(message([](auto& o) { o.strokes = "a.pdf"; }).find("FILE.svg or FILE.json"), std::string::npos);
     EXPECT_NE(message([](auto& o) { o.strokes = "no/such/folder/a.svg"; }).find("cannot write"), std::string::npos);
-    EXPECT_NE(message([](auto& o) { o.min = 50; }).find("max: 32 is below min, 50"), std::string::npos);
+    EXPECT_NE(message([](auto& o) { o.min = 50, o.max = 32; }).find("max: 32 is below min, 50"), std::string::npos);
+    EXPECT_NE(message([](auto& o) { o.min = 0.2f; }).find("is below min, 0.2"), std::string::npos);
     EXPECT_NE(message([](auto& o) { o.opacity = 2; }).find("opacity"), std::string::npos);
+    EXPECT_NE(message([](auto& o) { o.min = 0; }).find("expected a number, 0.0001 to 1000"), std::string::npos);
+    EXPECT_NE(message([](auto& o) { o.style = "baroque"; }).find("oil, impasto, wash, pastel, pointillist"),
+              std::string::npos);
+    std::string error;
+    pimg::PaintOptions options;
+    EXPECT_FALSE(pimg::set_option(options, "cover", "most", error));
+    EXPECT_NE(error.find("cover=\"most\": expected a number, 0 to 1"), std::string::npos) << error;
+}
+
+/// A style is nothing but the values of its row, and options that are given win.
+TEST(paint, styles_are_rows_of_values)
+{
+    const ImageBuf src = picture(90, 70);
+    std::vector<ImageBuf> paintings;
+    for (const pimg::Preset& style : pimg::paint_styles()) {
+        pimg::PaintOptions named;
+        named.style = style.name;
+        const pimg::PaintOptions filled = pimg::with_style(named);
+        for (const auto& option : pimg::option_table<pimg::PaintOptions>()) {
+            const bool may_be_unset = option.get(named) == pimg::OptionValue(-1.0f);
+            EXPECT_FALSE(may_be_unset && option.get(filled) == pimg::OptionValue(-1.0f)) << option.rule.key;
+        }
+        EXPECT_FALSE(filled.brush.empty() || filled.canvas.empty()) << style.name;
+        const ImageBuf by_name = iba::paint(src, named);
+        ASSERT_FALSE(by_name.has_error()) << by_name.geterror();
+        pimg::PaintOptions by_value = filled;
+        by_value.style = "oil";
+        EXPECT_TRUE(same_bits(by_name, iba::paint(src, by_value))) << style.name;
+        EXPECT_TRUE(same_bits(by_name, iba::paint(src, named, {}, 3))) << style.name << ", 3 threads";
+        for (const ImageBuf& other : paintings)
+            EXPECT_FALSE(same_bits(by_name, other)) << style.name;
+        paintings.push_back(by_name);
+        named.min = 5;
+        named.brush = "flat";
+        named.impasto = 0;
+        EXPECT_EQ(pimg::with_style(named).min, 5.0f);
+        EXPECT_EQ(pimg::with_style(named).brush, "flat");
+        EXPECT_EQ(pimg::with_style(named).impasto, 0.0f);
+        EXPECT_EQ(pimg::with_style(named).max, filled.max);
+    }
+    EXPECT_TRUE(same_bits(paintings[0], iba::paint(src))) << "oil is the default";
+}
+
+/// Below 1, sizes are shares of the diagonal; a size given in pixels moves a default that contradicts it.
+TEST(paint, sizes_are_pixels_or_shares)
+{
+    const ImageBuf src = picture(160, 120);  // a diagonal of 200
+    const auto painted = [&](float min, float max) {
+        pimg::PaintOptions options;
+        options.min = min;
+        options.max = max;
+        ImageBuf result = iba::paint(src, options);
+        EXPECT_FALSE(result.has_error()) << result.geterror();
+        return result;
+    };
+    EXPECT_TRUE(same_bits(painted(0.02f, 0.1f), painted(4, 20)));
+    EXPECT_TRUE(same_bits(painted(30, -1), painted(30, 30)));
+    EXPECT_TRUE(same_bits(painted(-1, 1), painted(1, 1)));
+    EXPECT_FALSE(same_bits(painted(4, 20), painted(4, 12)));
+}
+
+/// Places that are not covered show the canvas.
+TEST(paint, cover_below_one_leaves_canvas)
+{
+    const ImageBuf src = picture(160, 120, OIIO::TypeDesc::FLOAT, 3);
+    pimg::PaintOptions options;
+    options.canvas = "100";
+    options.cover = 0.3f;
+    std::size_t bare = 0;
+    for (const float v : samples(iba::paint(src, options), 0))
+        bare += v > 50.0f;
+    EXPECT_GT(bare, std::size_t(160 * 120 / 50));
+    options.canvas = "source";
+    for (const float v : samples(iba::paint(src, options), 0))
+        ASSERT_LT(v, 50.0f);
 }
 
 TEST(painting, works_on_odd_pictures)
@@ -261,6 +338,35 @@ TEST(mosaic, one_tile_colour_between_joints)
     EXPECT_GT(joints, 300u);
     options.colour = "mauve";
     EXPECT_NE(iba::mosaic(src, options).geterror().find("colour: \"mauve\""), std::string::npos);
+}
+
+/// Cells and pieces, stained glass, and chance: all are other pictures, and the same for any number of threads.
+TEST(mosaic, has_shapes_and_leading)
+{
+    const ImageBuf src = picture(130, 90);
+    std::vector<ImageBuf> mosaics;
+    for (const char* changed : { "", "shape=pieces", "leading=3", "variation=0.3", "round=1", "seed=2" }) {
+        pimg::MosaicOptions options;
+        pimg::OptionTexts texts;
+        std::string error;
+        ASSERT_TRUE(pimg::split_options(changed, texts, error));
+        ASSERT_TRUE(pimg::set_option(options, "tiles", "150", error));
+        for (const auto& [key, value] : texts)
+            ASSERT_TRUE(pimg::set_option(options, key, value, error)) << error;
+        const ImageBuf one = iba::mosaic(src, options, {}, 1);
+        ASSERT_FALSE(one.has_error()) << one.geterror();
+        EXPECT_TRUE(same_bits(one, iba::mosaic(src, options, {}, 3))) << changed;
+        EXPECT_EQ(samples(src, 3), samples(one, 3)) << changed;
+        for (const ImageBuf& other : mosaics)
+            EXPECT_FALSE(same_bits(one, other)) << changed;
+        mosaics.push_back(one);
+    }
+    pimg::MosaicOptions options;
+    std::string error;
+    EXPECT_FALSE(pimg::set_option(options, "shape", "stars", error));
+    EXPECT_NE(error.find("cells, pieces"), std::string::npos) << error;
+    EXPECT_FALSE(pimg::set_option(options, "leading", "-1", error));
+    EXPECT_NE(error.find("0 to 64"), std::string::npos) << error;
 }
 
 TEST(ink, is_black_on_white_and_exports_lines)
