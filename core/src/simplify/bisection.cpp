@@ -204,31 +204,41 @@ void Bisection::lay_out(const Guide& guide, const ParallelFor& parallel)
 {
     m_spots.extend(m_costs.size());
     m_more.resize(m_costs.size() * m_more_channels);
-    const auto has_falling_diagonal = [&](int x, int y) {
-        const bool falling = falls(x, y, 1);
-        const bool stays = falling ? is_left(pixel(x + 1, y)) && is_left(pixel(x, y + 1))
-                                   : is_left(pixel(x, y)) && is_left(pixel(x + 1, y + 1));
-        return stays ? is_falling(guide, pixel(x, y)) : falling;
-    };
     for_rows(parallel, 0, m_height, [&](int y) {
+        const std::vector<Diagonal> above = diagonals(guide, y - 1), below = diagonals(guide, y);
         for (int x = 0; x < m_width; ++x) {
             const Index p = pixel(x, y);
             Spot& spot = m_spots[p];
             spot = { {}, guide.channels[0].samples[p], 0.0f, 0.0f };
             for (int k = 0; k < kDirections; k += 2)
                 spot.reach[std::size_t(k)] = is_inside(x + kDx[k], y + kDy[k]);
-            for (int k = 1; k < kDirections; k += 2) {
-                if (!is_inside(x + kDx[k], y + kDy[k]))
-                    continue;
-                const bool falling = has_falling_diagonal(std::min(x, x + kDx[k]), std::min(y, y + kDy[k]));
-                const bool meets = falling == (kDx[k] == kDy[k]);
-                spot.reach[std::size_t(k)] = meets;
-                spot.area += meets ? 2.0f : 1.0f;
-            }
+            const std::size_t left = std::size_t(x), right = left + 1;
+            const auto add = [&](std::size_t direction, Diagonal of_quad, Diagonal that_meets) {
+                spot.reach[direction] = of_quad == that_meets;
+                spot.area += of_quad == Diagonal::none ? 0.0f : of_quad == that_meets ? 2.0f : 1.0f;
+            };
+            add(1, below[right], Diagonal::falling);
+            add(3, below[left], Diagonal::rising);
+            add(5, above[left], Diagonal::falling);
+            add(7, above[right], Diagonal::rising);
             for (std::size_t c = 0; c < m_more_channels; ++c)
                 m_more[p * m_more_channels + c] = guide.channels[c + 1].samples[p];
         }
     });
+}
+
+/// Those of the quads below row y, from the one left of the picture to the one right of it, which are none.
+std::vector<Bisection::Diagonal> Bisection::diagonals(const Guide& guide, int y) const
+{
+    std::vector<Diagonal> row(std::size_t(m_width) + 1, Diagonal::none);
+    for (int x = 0; y >= 0 && y + 1 < m_height && x + 1 < m_width; ++x) {
+        const bool falling = falls(x, y, 1);
+        const bool stays = falling ? is_left(pixel(x + 1, y)) && is_left(pixel(x, y + 1))
+                                   : is_left(pixel(x, y)) && is_left(pixel(x + 1, y + 1));
+        row[std::size_t(x) + 1] =
+            (stays ? is_falling(guide, pixel(x, y)) : falling) ? Diagonal::falling : Diagonal::rising;
+    }
+    return row;
 }
 
 /// t is the end whose pixel comes first, as in files, so that what is read back has the same stencils.

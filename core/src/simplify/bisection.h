@@ -64,6 +64,8 @@ private:
         float order;
     };
 
+    enum class Diagonal : std::uint8_t { none, falling, rising };
+
     /// A vertex to be removed: the ends of the edge it halves, and the direction from t to it.
     struct Removal {
         Index t, u, b;
@@ -77,6 +79,7 @@ private:
     void find_costs_of_centres(const Guide& guide, int step, int y);
     std::vector<Index> choose(const BisectionLimits& limits, const ParallelFor& parallel);
     void lay_out(const Guide& guide, const ParallelFor& parallel);
+    std::vector<Diagonal> diagonals(const Guide& guide, int y) const;
     Removal removal_of(Index u) const;
     void prefetch(const Removal& r) const;
     void remove(const Removal& r, CollapseRecord& record, SplitPair* more);
