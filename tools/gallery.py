@@ -259,7 +259,25 @@ def other_styles(g):
     g.figure('brushes', 'Brushes', 'round, flat, bristle and knife; enlarged twice.',
              ['pimgtool astronaut.png --paint:min=4:max=40:brush=%s -o brush_%s.png' % (b, b)
               for b in ('round', 'flat', 'bristle', 'knife')], windows=[(130, 10, 200, 150)] * 4)
-    g.figure('styles', 'Mosaic, pen and ink', 'Dual pieces as tiles, and lines along the edges; lines can be had as SVG.',
+    g.figure('paint_styles', 'Styles of painting',
+             'The photograph, and the styles oil, which is the default, impasto, wash, pastel and '
+             'pointillist. Oil and impasto would hang on a wall, pointillist from two steps away. Wash leaves '
+             'black grey, as its pigment is thin. Pastel loses what is finer than its chalk, such as the '
+             'spoon, because narrow strokes hardly press on the paper.',
+             ['pimgtool coffee.png --paint:style=%s -o style_%s.png' % (n, n)
+              for n in ('oil', 'impasto', 'wash', 'pastel', 'pointillist')],
+             ['coffee.png'] + ['style_%s.png' % n for n in ('oil', 'impasto', 'wash', 'pastel', 'pointillist')], width=1206)
+    g.figure('mosaics', 'Mosaics',
+             'Cells, which are the default, the pieces they grow from, and stained glass. The window and the '
+             'cup of cells would hang on a wall. Where a feature is narrower than a cell, as at the handle, '
+             'the cells are ragged; and the cat needs more and smaller panes than a glazier would cut. Pieces '
+             'follow the grain of the wood better than cells do.',
+             ['pimgtool coffee.png --mosaic:tiles=900 -o mosaic_cells.png',
+              'pimgtool coffee.png --mosaic:tiles=900:shape=pieces -o mosaic_pieces.png',
+              'pimgtool coffee.png --mosaic:tiles=600:leading=4:colour=0.1 -o mosaic_glass.png',
+              'pimgtool chelsea.png --mosaic:tiles=1500:leading=3:colour=0.1 -o mosaic_cat.png'])
+    g.figure('styles', 'Mosaic, pen and ink',
+             'Tiles grown from dual pieces, and a drawing with outlines and hatching; lines can be had as SVG.',
              ['pimgtool chelsea.png --mosaic:tiles=1500 -o mosaic.png', 'pimgtool chelsea.png --ink -o ink.png'])
 
 
