@@ -156,7 +156,7 @@ run_check() { # options as in usage()
     fi
 }
 
-readonly fuzz_targets=(decoder roundtrip stroke_file build colour options metadata plugin command_line shot)
+readonly fuzz_targets=(decoder roundtrip stroke_file build colour options metadata plugin command_line shot gain_map)
 
 build_fuzz() { # tree, option or '', targets of the build...
     local tree=$1 option=$2 launcher=()

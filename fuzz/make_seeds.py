@@ -9,6 +9,7 @@ a folder of seeds for each target, and words.dict.
 """
 import pathlib
 import re
+import struct
 import subprocess
 import sys
 import tempfile
@@ -70,6 +71,20 @@ def pimg_files(program):
         return [path.read_bytes() for path in sorted(pathlib.Path(scratch).glob("*.pimg"))]
 
 
+def gain_map_files(tool):
+    """Small JPEG files with a gain map, of a ramp up to a bright light."""
+    with tempfile.TemporaryDirectory() as scratch:
+        picture, file = pathlib.Path(scratch, "in.pfm"), pathlib.Path(scratch, "out.jpg")
+        samples = [0.01 * 1.02 ** i for i in range(24 * 16 * 3)]
+        picture.write_bytes(b"PF\n24 16\n-1.0\n" + struct.pack(f"<{len(samples)}f", *samples))
+        files = []
+        for keys in ("", ":scale=1", ":scale=4:channels=1"):
+            subprocess.run([tool, picture, "--hdr-compress:gamut=p3", "-o", f"{file}:gainmap=1{keys}"], check=True)
+            files.append(file.read_bytes())
+    without_iso = files[0].replace(b"urn:iso:std:iso:ts:21496", b"urn:xxx:std:iso:ts:21496")
+    return [*files, without_iso, without_iso.replace(b"MPF\0", b"xPF\0")]
+
+
 def attributes_of(file):
     """The payload of a file's META chunk; empty if there is none."""
     at = 8
@@ -90,6 +105,8 @@ def main(conformance, tool, folder):
     for number, file in enumerate(files):
         write(folder / "decoder", number, file)
         write(folder / "metadata", number, attributes_of(file))
+    for number, file in enumerate(gain_map_files(tool)):
+        write(folder / "gain_map", number, file)
     for number, query in enumerate(queries):
         write(folder / "plugin", number, query.encode() + b"\0" + files[number % len(files)])
     for number, name in enumerate(names):

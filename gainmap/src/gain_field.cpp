@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <pimg/detail/rec709.h>
 
@@ -22,6 +23,13 @@ constexpr double kHeadroomQuantile = 0.999;
 /// A rendition that is nowhere brighter than SDR white needs some headroom all the same, for a weight to be defined.
 constexpr double kLeastHeadroom = 0.05;
 
+/// What scale=0 tries first, and the miss() with which it goes on to 1. JPEG adds about 0.02 stops; 0.1 is the goal.
+constexpr int kUsualScale = 2;
+constexpr double kMostMissed = 0.08;
+
+/// The share of the least gains that a map does not reach.
+constexpr double kGivenUp = 0.001;
+
 constexpr double kOffset = GainChannel {}.base_offset;
 
 double positive(float sample)
@@ -34,18 +42,33 @@ double luminance(const float* rgb)
     return kLuminance[0] * positive(rgb[0]) + kLuminance[1] * positive(rgb[1]) + kLuminance[2] * positive(rgb[2]);
 }
 
-/// Stops from base to rendition at every pixel, for one channel of a map.
-std::vector<double> gains(const Light& base, const Light& rendition, int channel, int channels)
+using Stops = std::vector<std::vector<double>>;  ///< one field for each channel of a map
+
+/// Stops from base to rendition at every pixel.
+Stops gains(const Light& base, const Light& rendition, int channels)
 {
-    std::vector<double> stops(base.rgb.size() / 3);
-    for (std::size_t i = 0; i < stops.size(); ++i) {
-        const float* from = &base.rgb[3 * i];
-        const float* to = &rendition.rgb[3 * i];
-        const double low = channels == 1 ? luminance(from) : positive(from[channel]);
-        const double high = channels == 1 ? luminance(to) : positive(to[channel]);
-        stops[i] = elementary::log2((high + kOffset) / (low + kOffset));
-    }
+    const std::size_t pixels = base.rgb.size() / 3;
+    Stops stops;
+    stops.resize(std::size_t(channels), std::vector<double>(pixels));
+    for (int c = 0; c < channels; ++c)
+        for (std::size_t i = 0; i < pixels; ++i) {
+            const float* from = &base.rgb[3 * i];
+            const float* to = &rendition.rgb[3 * i];
+            const double low = channels == 1 ? luminance(from) : positive(from[c]);
+            const double high = channels == 1 ? luminance(to) : positive(to[c]);
+            stops[std::size_t(c)][i] = elementary::log2((high + kOffset) / (low + kOffset));
+        }
     return stops;
+}
+
+/// Luminance and offset of a pixel of the base to which gains are applied.
+double lit(const float* base, const Stops& stops, std::size_t pixel)
+{
+    double sum = 0.0;
+    for (std::size_t c = 0; c < 3; ++c)
+        sum += double(kLuminance[c]) * (positive(base[c]) + kOffset)
+            * elementary::exp2(stops[stops.size() == 1 ? 0 : c][pixel]);
+    return sum;
 }
 
 /// Stops that the brightest pixels are above SDR white.
@@ -73,27 +96,133 @@ std::vector<double> fit(const std::vector<double>& fine, const LinearAxis& acros
     return result;
 }
 
+Stops fit(const Stops& fine, const LinearAxis& across, const LinearAxis& down)
+{
+    Stops result;
+    for (const std::vector<double>& channel : fine)
+        result.push_back(fit(channel, across, down));
+    return result;
+}
+
+/// A coarse grid interpolated to the size of the picture, as decoders do it.
+std::vector<double> enlarge(const std::vector<double>& grid, const LinearAxis& across, const LinearAxis& down)
+{
+    std::vector<double> fine;
+    fine.reserve(std::size_t(across.fine()) * std::size_t(down.fine()));
+    for (int y = 0; y < down.fine(); ++y) {
+        const LinearAxis::Place v = down.place(y);
+        const double* upper = &grid[std::size_t(v.first) * std::size_t(across.coarse())];
+        const double* lower = &grid[std::size_t(v.second) * std::size_t(across.coarse())];
+        for (int x = 0; x < across.fine(); ++x) {
+            const LinearAxis::Place u = across.place(x);
+            const double above = (1.0 - u.share) * upper[u.first] + u.share * upper[u.second];
+            const double below = (1.0 - u.share) * lower[u.first] + u.share * lower[u.second];
+            fine.push_back((1.0 - v.share) * above + v.share * below);
+        }
+    }
+    return fine;
+}
+
+/// The means of squares of two by two pixels: what an encoder of JPEG keeps of colour.
+std::vector<double> halve(const std::vector<double>& fine, int width, int height)
+{
+    std::vector<double> result;
+    for (int y = 0; y < height; y += 2)
+        for (int x = 0; x < width; x += 2) {
+            const int right = std::min(x + 1, width - 1), below = std::min(y + 1, height - 1);
+            const auto at = [&](int i, int j) {
+                return fine[std::size_t(j) * std::size_t(width) + std::size_t(i)];
+            };
+            result.push_back(0.25 * (at(x, y) + at(right, y) + at(x, below) + at(right, below)));
+        }
+    return result;
+}
+
+/// Gains whose colour has half the resolution, as the map's JPEG stream will have it. What that does to the luminance of
+/// the rendition is put right in the part that all channels share, which keeps its resolution.
+void soften_colour(const Light& base, const Light& rendition, Stops& stops)
+{
+    const LinearAxis across(base.width, 2), down(base.height, 2);
+    const Stops common = gains(base, rendition, 1);
+    for (std::vector<double>& channel : stops) {
+        for (std::size_t i = 0; i < channel.size(); ++i)
+            channel[i] -= common[0][i];
+        channel = enlarge(halve(channel, base.width, base.height), across, down);
+    }
+    for (std::size_t i = 0; i < common[0].size(); ++i) {
+        const double wanted = luminance(&rendition.rgb[3 * i]) + kOffset;
+        const double shared = elementary::log2(wanted / lit(&base.rgb[3 * i], stops, i));
+        for (std::vector<double>& channel : stops)
+            channel[i] += shared;
+    }
+}
+
+/// How far the rendition that a map makes is from the intended one: the 95th percentile of the luminances' difference in
+/// stops. Luminances below the offset are black to the eye, and count as the offset.
+double miss(const Light& base, const Light& rendition, Stops stops, const LinearAxis& across, const LinearAxis& down)
+{
+    for (std::vector<double>& channel : stops)
+        channel = enlarge(channel, across, down);
+    std::vector<float> apart(base.rgb.size() / 3);
+    for (std::size_t i = 0; i < apart.size(); ++i) {
+        const double made = std::max(lit(&base.rgb[3 * i], stops, i) - kOffset, kOffset);
+        apart[i] = float(std::fabs(elementary::log2(made / std::max(luminance(&rendition.rgb[3 * i]), kOffset))));
+    }
+    const auto place = apart.begin() + std::ptrdiff_t(0.95 * double(apart.size() - 1));
+    std::nth_element(apart.begin(), place, apart.end());
+    return *place;
+}
+
+/// The range of all channels. The least of the gains are given up: they stand where the base's compression brightened a
+/// dark colour, and would cost all others half of their steps.
+GainChannel range_of(const Stops& stops)
+{
+    std::vector<double> all;
+    for (const std::vector<double>& channel : stops)
+        all.insert(all.end(), channel.begin(), channel.end());
+    GainChannel range;
+    range.max = *std::max_element(all.begin(), all.end());
+    const auto place = all.begin() + std::ptrdiff_t(kGivenUp * double(all.size() - 1));
+    std::nth_element(all.begin(), place, all.end());
+    range.min = *place;
+    return range;
+}
+
+GainMap map_of(const Stops& stops, int width, int height)
+{
+    GainMap map;
+    const GainChannel range = range_of(stops);
+    map.metadata.channel.fill(range);
+    map.pixels.reset(OIIO::ImageSpec(width, height, int(stops.size()), OIIO::TypeFloat));
+    float* sample = static_cast<float*>(map.pixels.localpixels());
+    for (std::size_t i = 0; i < stops[0].size(); ++i)
+        for (const std::vector<double>& channel : stops)
+            *sample++ =
+                range.max > range.min ? float(std::max(channel[i] - range.min, 0.0) / (range.max - range.min)) : 0.0f;
+    return map;
+}
+
 }  // namespace
 
 GainMap make_gain_map(const Light& base, const Light& rendition, const GainMapOptions& options)
 {
-    const LinearAxis across(base.width, options.scale), down(base.height, options.scale);
-    GainMap map;
-    map.metadata.alternate_headroom = headroom_of(rendition);
-    map.pixels.reset(OIIO::ImageSpec(across.coarse(), down.coarse(), options.channels, OIIO::TypeFloat));
-    std::vector<std::vector<double>> stops;
-    GainChannel range;
-    for (int c = 0; c < options.channels; ++c) {
-        stops.push_back(fit(gains(base, rendition, c, options.channels), across, down));
-        const auto [least, most] = std::minmax_element(stops.back().begin(), stops.back().end());
-        range.min = c == 0 ? *least : std::min(range.min, *least);
-        range.max = c == 0 ? *most : std::max(range.max, *most);
+    int scale = options.scale == 0 ? kUsualScale : options.scale;
+    Stops fine = gains(base, rendition, options.channels);
+    Stops fitted;
+    if (scale > 1) {
+        const LinearAxis across(base.width, scale), down(base.height, scale);
+        fitted = fit(fine, across, down);
+        if (options.scale == 0 && miss(base, rendition, fitted, across, down) > kMostMissed)
+            scale = 1;
     }
-    map.metadata.channel.fill(range);
-    float* sample = static_cast<float*>(map.pixels.localpixels());
-    for (std::size_t i = 0; i < stops[0].size(); ++i)
-        for (const std::vector<double>& of_channel : stops)
-            *sample++ = range.max > range.min ? float((of_channel[i] - range.min) / (range.max - range.min)) : 0.0f;
+    if (scale == 1) {
+        fitted = std::move(fine);
+        if (options.channels == 3)
+            soften_colour(base, rendition, fitted);
+    }
+    GainMap map = map_of(fitted, (base.width + scale - 1) / scale, (base.height + scale - 1) / scale);
+    map.half_colour = scale == 1;
+    map.metadata.alternate_headroom = headroom_of(rendition);
     return map;
 }
 

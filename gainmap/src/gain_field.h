@@ -21,11 +21,12 @@ struct Light {
 struct GainMap {
     GainMetadata metadata;
     OIIO::ImageBuf pixels;
+    bool half_colour = false;  ///< made for a stream that keeps colour at half the resolution
 };
 
 /// The map that comes closest, in the mean square of stops, to making `rendition` of `base` once it is interpolated to the
-/// size of both. Its headroom is that of the brightest 0.1 % of the rendition's pixels. All channels share one range: some
-/// decoders understand no other.
+/// size of both; scale=0 finds the scale. Its headroom is that of the brightest 0.1 % of the rendition's pixels. All
+/// channels share one range: some decoders understand no other.
 GainMap make_gain_map(const Light& base, const Light& rendition, const GainMapOptions& options);
 
 /// Changes `light`, the base, to what a display with `headroom` stops above SDR white shows; the whole rendition if that

@@ -23,7 +23,9 @@ const std::vector<Option<GainMapOptions>>& option_table<GainMapOptions>()
     using G = GainMapOptions;
     static const std::vector<Option<G>> table = {
         { &G::scale,
-          { "scale", 1, 4, "pixels", "", "1, 2 or 4: side of the square that a sample of the gain map stands for" } },
+          { "scale", 0, 4, "pixels", "",
+            "1, 2 or 4: side of the square that a sample of the gain map stands for; 0: 2, or 1 where 2 is too "
+            "coarse" } },
         { &G::channels, { "channels", 1, 3, "", "", "3 for a gain map of each colour, 1 for one of luminance" } },
         { &G::quality, { "quality", 1, 100, "percent", "", "JPEG quality of the gain map" } },
     };
@@ -68,7 +70,7 @@ std::string named(std::string_view name, std::string_view content)
 /// The gain map as a JPEG stream of its own, with its metadata.
 bool encode_map(const GainMap& map, int quality, std::string& stream, std::string& error)
 {
-    if (!encode_jpeg(map.pixels, quality, stream, error))
+    if (!encode_jpeg(map.pixels, quality, map.half_colour, stream, error))
         return false;
     const std::string segments = jpeg_segment(kApp1, named(kXmpName, xmp_gain_metadata(map.metadata)))
         + jpeg_segment(kApp2, named(kIsoName, iso_gain_metadata(map.metadata)));
@@ -174,7 +176,7 @@ bool check(const GainMapOptions& options, std::string& error)
     if (!check_options(options, error))
         return false;
     if (options.scale == 3)
-        error = "scale=3: expected 1, 2 or 4 pixels";
+        error = "scale=3: expected 1, 2 or 4 pixels, or 0";
     else if (options.channels == 2)
         error = "channels=2: expected 1 or 3";
     return error.empty();
@@ -206,14 +208,10 @@ bool render(const Parts& parts, float headroom, OIIO::ImageBuf& result)
 {
     OIIO::ImageBuf base, map;
     std::string error;
-    if (!decode_jpeg(parts.base, base, error))
+    if (!decode_jpeg(parts.base, nullptr, base, error))
         return fail(result, format("its base cannot be read: {}", error));
-    if (!decode_jpeg(parts.map, map, error))
+    if (!decode_jpeg(parts.map, &base.spec(), map, error))
         return fail(result, format("its gain map cannot be read: {}", error));
-    if (map.spec().width > base.spec().width || map.spec().height > base.spec().height)
-        return fail(result,
-                    format("its gain map has {} x {} pixels, expected at most the {} x {} of the base",
-                           map.spec().width, map.spec().height, base.spec().width, base.spec().height));
     Light light;
     Colour colour;
     if (!base_light(parts, base, map, light, colour, error))
@@ -250,7 +248,7 @@ bool add_gain_map(const std::string& base, const OIIO::ImageBuf& rendition, cons
         error = "the base has a gain map already";
         return false;
     }
-    if (!decode_jpeg(base, pixels, error) || !linear_light(rendition, true, hdr, colour, error)
+    if (!decode_jpeg(base, nullptr, pixels, error) || !linear_light(rendition, true, hdr, colour, error)
         || !linear_light(pixels, false, sdr, colour, error))
         return false;
     colour.from_rec709(hdr.rgb.data(), hdr.rgb.size() / 3);

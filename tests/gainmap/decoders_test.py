@@ -5,51 +5,20 @@
 Skipped where neither is there. hdrify is looked for in $HDRIFY, the folder that `npm install hdrify` was run in.
 """
 
-import base64
-import functools
-import http.server
 import os
 import pathlib
 import shutil
-import subprocess
 import sys
 import tempfile
-import threading
 import unittest
 
 import numpy as np
 import OpenImageIO as oiio
 
 import pimg
+from decoders import chromium_pixels, hdrify_pixels, stops_apart
 
 SKIPPED = 77  # what ctest takes for it
-WEIGHTS = np.array([0.2126, 0.7152, 0.0722])
-
-PAGE = """<body><pre id=o>wait</pre><script>
-(async () => {
-    const image = new Image();
-    image.src = 'file.jpg';
-    await image.decode();
-    const canvas = document.createElement('canvas');
-    canvas.width = image.width;
-    canvas.height = image.height;
-    const context = canvas.getContext('2d', { colorType: 'float16' });
-    context.globalHDRHeadroom = 10;
-    context.drawImage(image, 0, 0);
-    const data = context.getImageData(0, 0, image.width, image.height, { pixelFormat: 'rgba-float16' }).data;
-    const bytes = new Uint8Array(Float32Array.from(data).buffer);
-    let text = '';
-    for (let i = 0; i < bytes.length; i += 32768)
-        text += String.fromCharCode(...bytes.subarray(i, i + 32768));
-    document.getElementById('o').textContent = 'pixels:' + btoa(text) + ':';
-})();
-</script>"""
-
-READER = """import fs from 'fs';
-import { readJpegGainMap } from 'hdrify';
-const image = readJpegGainMap(new Uint8Array(fs.readFileSync(process.argv[2])));
-fs.writeFileSync(process.argv[3], Buffer.from(image.data.buffer, image.data.byteOffset, image.data.byteLength));
-"""
 
 
 def scene(width=160, height=120):
@@ -75,51 +44,12 @@ def gain_map_file(folder):
     return file
 
 
-def stops_apart(a, b):
-    """The 95th percentile of the difference of luminance."""
-    stops = np.abs(np.log2(np.maximum(a @ WEIGHTS, 1e-3) / np.maximum(b @ WEIGHTS, 1e-3)))
-    return np.percentile(stops, 95)
-
-
-def decode_srgb(values):
-    return np.where(values <= 0.04045, values / 12.92, ((np.maximum(values, 0) + 0.055) / 1.055) ** 2.4)
-
-
-class Quiet(http.server.SimpleHTTPRequestHandler):
-    def log_message(self, *args):
-        pass
-
-
-def chromium_pixels(folder, browser):
-    (folder / "page.html").write_text(PAGE)
-    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=str(folder)))
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    command = [browser, "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-               "--disable-background-networking", "--disable-component-update", "--disable-sync",
-               f"--user-data-dir={folder}/profile", "--enable-experimental-web-platform-features",
-               "--force-color-profile=scrgb-linear", "--virtual-time-budget=20000", "--dump-dom",
-               f"http://127.0.0.1:{server.server_port}/page.html"]
-    try:
-        text = subprocess.run(command, capture_output=True, text=True, timeout=100).stdout
-    finally:
-        server.shutdown()
-    pixels = np.frombuffer(base64.b64decode(text.split("pixels:")[1].split(":")[0]), np.float32)
-    return decode_srgb(pixels.reshape(scene().shape[:2] + (4,))[..., :3])
-
-
-def hdrify_pixels(folder, installed):
-    script = pathlib.Path(installed) / "pimg_read.mjs"
-    script.write_text(READER)
-    subprocess.run(["node", str(script), str(folder / "file.jpg"), str(folder / "out.raw")], check=True)
-    return np.fromfile(folder / "out.raw", np.float32).reshape(scene().shape[:2] + (4,))[..., :3]
-
-
 class DecodersTest(unittest.TestCase):
     def compare(self, decode, tool):
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             ours = pimg.gain_map_rendition(gain_map_file(folder).read_bytes(), array=True)
-            theirs = decode(folder, tool)
+            theirs = decode(folder, scene().shape[:2], tool)
         self.assertLess(stops_apart(ours, scene()), 0.1)
         self.assertLess(stops_apart(theirs, scene()), 0.1)
 

@@ -43,13 +43,13 @@ ImageBuf tone_mapped(const ImageBuf& picture)
     return result;
 }
 
-std::string jpeg_of(const ImageBuf& linear)
+std::string jpeg_of(const ImageBuf& linear, int width = kWidth, int height = kHeight)
 {
     const ImageBuf encoded = pimg::srgb_encoded(linear);
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput memory(bytes);
     const auto out = OIIO::ImageOutput::create("base.jpg");
-    ImageSpec spec(kWidth, kHeight, 3, OIIO::TypeUInt8);
+    ImageSpec spec(width, height, 3, OIIO::TypeUInt8);
     spec.attribute("Compression", "jpeg:98");
     spec.attribute("Artist", "nobody");
     spec.attribute("Orientation", 6);
@@ -160,6 +160,41 @@ TEST(GainMap, WhatCannotBeIsToldInALine)
     EXPECT_TRUE(pimg::gain_map_rendition(base).has_error());
     EXPECT_FALSE(pimg::has_gain_map(base));
     EXPECT_TRUE(pimg::has_gain_map(made(rendition)));
+}
+
+/// Texture of the rendition that the base has not: a map of squares cannot show it, so that one of pixels is made.
+TEST(GainMap, FineGainsGetAFineMap)
+{
+    const ImageBuf smooth = scene(2.0f);
+    ImageBuf rough = smooth;
+    for (ImageBuf::Iterator<float> p(rough); !p.done(); ++p)
+        for (int c = 0; c < 3; ++c)
+            p[c] = p[c] * ((p.x() + p.y()) % 2 ? 1.5f : 0.7f);
+    std::string found, coarse, error;
+    const std::string base = jpeg_of(tone_mapped(smooth));
+    ASSERT_TRUE(pimg::add_gain_map(base, rough, {}, found, error)) << error;
+    ASSERT_TRUE(pimg::add_gain_map(base, rough, { 2, 3, 90 }, coarse, error)) << error;
+    EXPECT_LT(difference(pimg::gain_map_rendition(found), rough), 0.1);
+    EXPECT_GT(difference(pimg::gain_map_rendition(coarse), rough), 0.3);
+}
+
+TEST(GainMap, MapsLargerThanTheBaseAreRefused)
+{
+    const std::string file = made(scene(5.0f));
+    const std::size_t map = file.find("\xFF\xD8\xFF", 3);
+    const ImageBuf small(ImageSpec(16, 8, 3, OIIO::TypeFloat));
+    const ImageBuf result = pimg::gain_map_rendition(jpeg_of(small, 16, 8) + file.substr(map));
+    EXPECT_NE(result.geterror().find("at most the 16 x 8 of the base"), std::string::npos);
+}
+
+/// A header that promises more pixels than the bytes can hold costs no memory.
+TEST(GainMap, PromisesAreNotBelieved)
+{
+    std::string file = made(scene(5.0f));
+    const std::size_t frame = file.find(std::string("\xFF\xC0\0\x11\x08", 5));
+    ASSERT_NE(frame, std::string::npos);
+    file.replace(frame + 5, 4, "\xFF\xDC\xFF\xDC");
+    EXPECT_NE(pimg::gain_map_rendition(file).geterror().find("too few"), std::string::npos);
 }
 
 TEST(GainMap, DamageEndsInAnErrorOrAPicture)

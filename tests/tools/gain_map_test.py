@@ -58,6 +58,39 @@ class GainMapFiles(unittest.TestCase):
         self.assertGreater(wanted.max(), 1.5)
         self.assertLess(np.percentile(abs(luminance(back) - luminance(wanted)), 95), 0.1)
 
+    def test_no_halo(self):
+        """Beside the window light neither rises above that of the window's middle nor falls below that of the wall."""
+        self.done("in.exr", "--hdr-compress", "-o", "out.jpg:gainmap=1:scale=4")
+        self.done("out.jpg", "--gainmap", "-o", "back.exr")
+        self.done("in.exr", "--hdr-compress:peak=1000", "-o", "wanted.exr")
+        rows = slice(35, 45)
+        back, wanted = (np.cbrt((pixels(name) @ np.float32([0.2126, 0.7152, 0.0722]))[rows].mean(axis=0))
+                        for name in ("back.exr", "wanted.exr"))
+        step = wanted[110] - wanted[40]
+        self.assertGreater(step, 0.3)
+        self.assertLess((back - wanted)[90:140].max(), 0.01 * step)  # the bright side of both edges
+        self.assertGreater((back - wanted)[:87].min(), -0.01 * step)
+
+    def test_display_p3(self):
+        """A colour beyond Rec. 709: a base with the profile of Display P3 shows it, and the rendition has it, too."""
+        buf = oiio.ImageBuf(oiio.ImageSpec(WIDTH, HEIGHT, 3, "float"))
+        oiio.ImageBufAlgo.checker(buf, 40, 40, 1, (-0.06, 0.5, -0.02), (0.2, 0.2, 0.2))
+        buf.specmod().attribute("Orientation", 6)
+        buf.specmod().attribute("Artist", "nobody")
+        buf.write("wide.exr")
+        self.done("wide.exr", "--hdr-compress:gamut=p3", "-o", "base.jpg", "-o", "out.jpg:gainmap=1", "-o", "out.png")
+        self.done("wide.exr", "--hdr-compress", "-o", "narrow.png")
+        self.assertTrue((pixels("base.jpg") == pixels("out.jpg")).all())
+        for name in ("base.jpg", "out.jpg", "out.png"):
+            spec = oiio.ImageBuf(os.path.abspath(name)).spec()
+            self.assertEqual(spec.getattribute("ICCProfile:profile_description"), "Display P3", name)
+        self.assertEqual(oiio.ImageBuf(os.path.abspath("out.jpg")).spec()["Artist"], "nobody")
+        self.done("out.png", "--tocolorspace", "linear", "-d", "float", "-o", "linear.exr")
+        self.done("out.jpg", "--gainmap", "--tocolorspace", "linear", "-d", "float", "-o", "back.exr")
+        for name in ("linear.exr", "back.exr"):
+            self.assertLess(pixels(name)[..., 0].min(), -0.02, name)  # in linear Rec. 709
+        self.assertGreater(pixels("narrow.png").min(), 0)
+
     def test_windows_and_names(self):
         buf = oiio.ImageBuf(os.path.abspath("in.exr"))
         buf.specmod().full_width, buf.specmod().full_height = WIDTH + 40, HEIGHT - 20

@@ -18,10 +18,9 @@ const std::vector<Option<pimgtool::GainMapRequest>>& option_table<pimgtool::Gain
     static const std::vector<Option<T>> table = {
         { &T::gainmap,
           { "gainmap", 0, 0, "", "", "JPEG: the result of --hdr-compress, with a gain map for HDR displays" } },
-        { &T::peak, { "peak", 203, 4000, "nits", "", "with gainmap: brightest of the HDR rendition" } },
+        { &T::peak, { "peak", kSdrWhiteNits, 4000, "nits", "", "with gainmap: brightest of the HDR rendition" } },
         { &T::scale,
-          { "scale", 1, 4, "pixels", "",
-            "with gainmap: 1, 2 or 4, the side of the square for one sample of the map" } },
+          { "scale", 0, 4, "pixels", "", "with gainmap: side of a sample of the map, 1, 2 or 4; 0: found" } },
         { &T::channels, { "channels", 1, 3, "", "", "with gainmap: 3, gains of each colour, or 1, one of all" } },
     };
     return table;

@@ -40,6 +40,7 @@ struct OutputPicture {
     std::string part = {};                       ///< the name of the part, for messages
     /// Changes the bytes of the file before it is kept; not for .pimg files.
     std::function<bool(std::string& bytes, std::string& error)> finish = {};
+    bool is_gain = false;      ///< numbers with sign and fractions, which the format must keep
     bool is_straight = false;  ///< colours are to be multiplied by alpha where the format wants that
 };
 

@@ -184,29 +184,62 @@ bool refuse_labels(const ImageOutput& out, const std::string& why, const OutputR
     return false;
 }
 
-/// Whether the format keeps numbers up to `count` - 1 as they are: found by writing some, since some formats are lossy
-/// always, some with some codecs, and some have fewer colours than numbers.
-bool keeps_labels(ImageOutput& out, const std::string& scratch, const ImageSpec& header, pimg::Index count)
+/// The samples of a small picture after it was written and read again. Empty if that is not possible.
+std::vector<unsigned char> read_back(ImageOutput& out, const std::string& scratch, const ImageBuf& probe)
 {
-    ImageSpec spec = header;
-    spec.x = spec.y = spec.full_x = spec.full_y = 0;
-    spec.width = spec.full_width = spec.height = spec.full_height = kProbeSide;
-    ImageBuf probe(spec);
-    std::vector<pimg::Index> labels(spec.image_pixels());
-    for (std::size_t i = 0; i < labels.size(); ++i)
-        labels[i] = pimg::Index((i * 2654435761u >> 7) % count);
-    pimg::write_labels(probe, probe.roi(), labels.data(), std::size_t(spec.width), count);
-    bool kept = out.open(scratch, spec) && probe.write(&out) && out.close();
+    std::vector<unsigned char> back;
+    const ImageSpec& spec = probe.spec();
+    const bool written = out.open(scratch, spec) && probe.write(&out) && out.close();
     out.geterror();
-    if (const std::unique_ptr<OIIO::ImageInput> in = kept ? OIIO::ImageInput::open(scratch) : nullptr) {
-        std::vector<unsigned char> back(spec.image_bytes());
-        kept = in->read_image(0, 0, 0, 1, spec.format, back.data())
-            && std::memcmp(back.data(), probe.localpixels(), back.size()) == 0;
+    if (const std::unique_ptr<OIIO::ImageInput> in = written ? OIIO::ImageInput::open(scratch) : nullptr) {
+        back.resize(spec.image_bytes());
+        if (!in->read_image(0, 0, 0, spec.nchannels, spec.format, back.data()))
+            back.clear();
         in->geterror();
     }
     OIIO::geterror();
     std::remove(scratch.c_str());
-    return kept;
+    return back;
+}
+
+ImageSpec probe_spec(const ImageSpec& header)
+{
+    ImageSpec spec = header;
+    spec.x = spec.y = spec.full_x = spec.full_y = 0;
+    spec.width = spec.full_width = spec.height = spec.full_height = kProbeSide;
+    return spec;
+}
+
+/// Whether the format keeps numbers up to `count` - 1 as they are: found by writing some, since some formats are lossy
+/// always, some with some codecs, and some have fewer colours than numbers.
+bool keeps_labels(ImageOutput& out, const std::string& scratch, const ImageSpec& header, pimg::Index count)
+{
+    ImageBuf probe(probe_spec(header));
+    std::vector<pimg::Index> labels(probe.spec().image_pixels());
+    for (std::size_t i = 0; i < labels.size(); ++i)
+        labels[i] = pimg::Index((i * 2654435761u >> 7) % count);
+    pimg::write_labels(probe, probe.roi(), labels.data(), kProbeSide, count);
+    const std::vector<unsigned char> back = read_back(out, scratch, probe);
+    return !back.empty() && std::memcmp(back.data(), probe.localpixels(), back.size()) == 0;
+}
+
+/// Whether the format keeps sign and fractions: found in the same way.
+bool keeps_gains(ImageOutput& out, const std::string& scratch, const ImageSpec& header)
+{
+    constexpr float kGain = -1.375f, kClose = 0.01f;
+    ImageSpec spec = probe_spec(header);
+    spec.channelformats.clear();
+    if (!spec.format.is_floating_point())
+        return false;
+    spec.set_format(OIIO::TypeFloat);
+    ImageBuf probe(spec);
+    OIIO::ImageBufAlgo::fill(probe, std::vector<float>(std::size_t(spec.nchannels), kGain));
+    const std::vector<unsigned char> back = read_back(out, scratch, probe);
+    std::vector<float> samples(back.size() / sizeof(float));
+    if (!back.empty())
+        std::memcpy(samples.data(), back.data(), back.size());
+    return !samples.empty()
+        && std::all_of(samples.begin(), samples.end(), [](float sample) { return std::fabs(sample - kGain) < kClose; });
 }
 
 /// Chooses a lossless codec for labels: a lossy one would turn them into other numbers.
@@ -326,6 +359,10 @@ bool make_part(const OutputPicture& picture, const std::string& filename, ImageO
         part.source = &part.encoded;
     }
     part.spec = file_spec(*part.source, types, out);
+    if (picture.is_gain && !keeps_gains(out, scratch, part.spec)) {
+        report.error = "a gain has a sign and fractions: expected .exr, .tif, .pfm or .pimg of half or float samples";
+        return false;
+    }
     if (!declare_encoding(picture, out, scratch, part, report))
         return false;
     if (has_pimg_extension(filename))

@@ -59,15 +59,6 @@ std::string describe(const OIIO::ImageSpec& stored)
                   stored.nchannels == 1 ? "" : "s", stored.format.c_str(), meaning_of(stored).description());
 }
 
-/// Whether samples keep sign and fractions in a file.
-bool holds_floats(const std::string& filename, const OutputOptions& output)
-{
-    const std::string extension = OIIO::Strutil::lower(OIIO::Filesystem::extension(filename, false));
-    const bool fits =
-        extension == "exr" || extension == "tif" || extension == "tiff" || extension == "pfm" || extension == "pimg";
-    return fits && (output.type == OIIO::TypeUnknown || output.type.is_floating_point());
-}
-
 /// A key for a file as it is read: its name and the settings of the reader.
 std::string key_of(const std::string& filename, const InputOptions& settings)
 {
@@ -146,6 +137,7 @@ OutputPicture Session::output_of(const Picture& picture) const
     OutputPicture out { *picture.pixels, picture.stored, picture.linear_light && !output.raw, picture.labels };
     out.layer = picture.hierarchy->options.layer;
     out.is_straight = picture.is_straight;
+    out.is_gain = picture.is_gain;
     out.part = part_name(picture.pixels->spec(), picture.part);
     if (picture.labels) {
         out.types = { output.type, {} };
@@ -184,11 +176,6 @@ bool Session::write(const std::string& filename, const pimg::io::WriteOptions& o
 bool Session::write(const std::string& filename, const pimg::io::WriteOptions& options,
                     const std::function<bool(std::string& bytes, std::string& error)>& finish)
 {
-    if (top().is_gain && !holds_floats(filename, output))
-        return fail(format(
-            "cannot write \"{}\": a gain has a sign and fractions: expected .exr, .tif, .pfm or .pimg of half or "
-            "float samples",
-            filename));
     pimg::ProgressiveImage stored;
     if (has_pimg_extension(filename) && options.profile == "full") {
         const pimg::ProgressiveImage* image = hierarchy_of(top());

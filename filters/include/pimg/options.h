@@ -181,6 +181,9 @@ struct SegmentOptions {
     std::string stats;  ///< file for a table of the regions: JSON if its name ends in .json, else CSV; empty: none
 };
 
+/// Luminance of the white of an SDR picture on a display, in nits: reference white of ITU-R BT.2408.
+constexpr float kSdrWhiteNits = 203.0f;
+
 /// HDR compression (section 5.1, Eq. 2) with a contrast envelope and automatic exposure. Where 0 means "found", the value
 /// is found from the picture; resolve_hdr_compress() tells which it is.
 struct HdrCompressOptions {
@@ -198,17 +201,19 @@ struct HdrCompressOptions {
     float white = 0.0f;              ///< luminance of the compressed picture shown as white; 0: found
     float exposure = 0.0f;           ///< added to the exposure, in stops
     std::string output = "display";  ///< display; scene: scene-linear; gain: log2 of the factor from source to scene
-    float peak = 203.0f;             ///< luminance in nits of the brightest that the display shows; white is at 203
-    bool aovs = false;               ///< output=scene: every layer that holds light gets the picture's gain
-    float fine = 0.0f;               ///< stops by which the gain of details is raised, if they are small,
-    float medium = 0.0f;             ///< of middle size,
-    float coarse = 0.0f;             ///< or large
-    float shadows = 0.0f;            ///< stops by which what is dark is raised, 3 stops below middle grey and further,
-    float midtones = 0.0f;           ///< what is middle grey,
-    float highlights = 0.0f;         ///< and what is 3 stops above it and further
+    float peak =
+        kSdrWhiteNits;        ///< luminance in nits of the brightest that the display shows; white is at kSdrWhiteNits
+    bool aovs = false;        ///< output=scene: every layer that holds light gets the picture's gain
+    float fine = 0.0f;        ///< stops by which the gain of details is raised, if they are small,
+    float medium = 0.0f;      ///< of middle size,
+    float coarse = 0.0f;      ///< or large
+    float shadows = 0.0f;     ///< stops by which what is dark is raised, 3 stops below middle grey and further,
+    float midtones = 0.0f;    ///< what is middle grey,
+    float highlights = 0.0f;  ///< and what is 3 stops above it and further
     /// The same at any exposure, instead of these three: pairs of stops above middle grey and of stops it is raised by,
     /// such as "-6:+2,-3:+1,0:0,4:-1". Linear between these points and constant outside.
     std::string zones;
+    std::string gamut = "rec709";  ///< colours that the display shows: those of rec709, or those of p3, Display P3
 };
 
 /// Painterly rendering (section 5.2). What is not set has the value of the style (paint_styles()): -1 and empty strings

@@ -389,6 +389,8 @@ const std::vector<Option<HdrCompressOptions>>& option_table<HdrCompressOptions>(
         { &T::highlights, { "highlights", -8, 8, "stops", "", "raises what is 3 stops or more above middle grey" } },
         { &T::zones,
           { "zones", 0, 0, "", "", "the same as a curve: stops above middle grey:stops raised,... linear between" } },
+        { &T::gamut,
+          { "gamut", 0, 0, "", "rec709|p3", "colours the display shows; files of p3 have the profile of Display P3" } },
     };
     return table;
 }

@@ -12,6 +12,8 @@
 #include <pimg/threads.h>
 
 #include "base/float_copy.h"
+#include "colour/icc.h"
+#include "colour/primaries.h"
 #include "colour/spaces.h"
 
 namespace pimg {
@@ -20,11 +22,33 @@ using OIIO::ImageBuf;
 
 namespace {
 
+/// The attribute of declare_gamut().
+constexpr const char* kDisplayGamut = "DisplayGamut";
+
+Imath::M33d rec709_to(const Chromaticities& primaries)
+{
+    Imath::M33d matrix, inverse;
+    matrix_to_rec709(primaries, matrix);
+    invert(matrix, inverse);
+    return inverse;
+}
+
 /// Applies the curve of a display. Colours may be stored multiplied by alpha; the curve is for the colours without it.
 class Encoder {
 public:
     /// `colour` says which channels are colours and, for linear samples, what their primaries are.
-    Encoder(const OIIO::ImageSpec& spec, const Colour& colour) : m_spec(spec), m_colour(colour) { }
+    Encoder(const OIIO::ImageSpec& spec, const Colour& colour)
+        : m_spec(spec),
+          m_colour(colour),
+          m_wide(is_wide(spec, colour))
+    {
+    }
+
+    /// Whether the result has the primaries of Display P3.
+    static bool is_wide(const OIIO::ImageSpec& spec, const Colour& colour)
+    {
+        return colour.count() == 3 && !colour.encoded() && spec.get_string_attribute(kDisplayGamut) == "p3";
+    }
 
     void encode(float* row) const
     {
@@ -36,12 +60,24 @@ public:
         });
         if (m_colour.count() == 3 && !m_colour.encoded())
             m_colour.to_rec709(rgb.data(), std::size_t(m_spec.width));
+        if (m_wide)
+            to_p3(rgb);
         srgb_in_place(rgb.data(), rgb.size());
         for_colours(row,
                     [&](int x, int c, float& sample, float alpha) { sample = rgb[std::size_t(3 * x + c)] * alpha; });
     }
 
 private:
+    static void to_p3(std::vector<float>& rgb)
+    {
+        static const Imath::M33f matrix(rec709_to(kP3));
+        for (std::size_t i = 0; i < rgb.size(); i += 3) {
+            const Imath::V3f p = Imath::V3f(rgb[i], rgb[i + 1], rgb[i + 2]) * matrix;
+            for (int c = 0; c < 3; ++c)
+                rgb[i + std::size_t(c)] = p[c];
+        }
+    }
+
     /// Calls body(x, number of the colour, sample, alpha or 1).
     template<class Body>
     void for_colours(float* row, Body&& body) const
@@ -55,7 +91,18 @@ private:
 
     const OIIO::ImageSpec& m_spec;
     const Colour& m_colour;
+    bool m_wide;
 };
+
+/// Metadata of pictures made for displays.
+void declare_display(OIIO::ImageSpec& spec, bool wide)
+{
+    declare_space(spec, wide ? "srgb_p3d65_display" : "sRGB");
+    if (!wide)
+        return;
+    const std::string profile = display_p3_profile();
+    spec.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, int(profile.size())), profile.data());
+}
 
 }  // namespace
 
@@ -78,13 +125,21 @@ ImageBuf srgb_encoded(const ImageBuf& src, int nthreads, const std::string& laye
                 .encode(static_cast<float*>(dst.localpixels())
                         + std::size_t(row) * std::size_t(spec.width) * std::size_t(spec.nchannels));
         });
-    declare_space(dst.specmod(), "sRGB");
+    declare_display(dst.specmod(), Encoder::is_wide(spec, colour));
     return dst;
 }
 
 double srgb_decoded(double encoded)
 {
     return std::isfinite(encoded) ? elementary::srgb_decoded(encoded) : encoded;
+}
+
+void declare_gamut(OIIO::ImageSpec& spec, const std::string& gamut)
+{
+    if (gamut == "p3")
+        spec.attribute(kDisplayGamut, gamut);
+    else
+        spec.erase_attribute(kDisplayGamut);
 }
 
 void declare_space(OIIO::ImageSpec& spec, const std::string& space)

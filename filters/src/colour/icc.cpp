@@ -98,4 +98,28 @@ bool read_icc(const void* bytes, std::size_t size, IccSpace& space)
     return true;
 }
 
+std::string display_p3_profile()
+{
+    const cmsCIExyY white { kP3[6], kP3[7], 1.0 };
+    const cmsCIExyYTRIPLE primaries { { kP3[0], kP3[1], 1.0 }, { kP3[2], kP3[3], 1.0 }, { kP3[4], kP3[5], 1.0 } };
+    const double srgb[] = { 2.4, 1.0 / 1.055, 0.055 / 1.055, 1.0 / 12.92, 0.04045 };  // IEC 61966-2-1
+    constexpr int kPowerAndLine = 4;                                                  // of cmsBuildParametricToneCurve
+    cmsToneCurve* const curve = cmsBuildParametricToneCurve(nullptr, kPowerAndLine, srgb);
+    cmsToneCurve* const curves[] = { curve, curve, curve };
+    const Profile profile(cmsCreateRGBProfile(&white, &primaries, curves), cmsCloseProfile);
+    cmsFreeToneCurve(curve);
+    cmsMLU* const name = cmsMLUalloc(nullptr, 1);
+    cmsMLUsetASCII(name, "en", "US", "Display P3");
+    cmsWriteTag(profile.get(), cmsSigProfileDescriptionTag, name);
+    cmsMLUfree(name);
+    cmsUInt32Number size = 0;
+    cmsSaveProfileToMem(profile.get(), nullptr, &size);
+    std::string bytes(size, '\0');
+    cmsSaveProfileToMem(profile.get(), bytes.data(), &size);
+    // The header says when the profile was made. Files must not depend on the clock: the year of the standard is as good.
+    constexpr std::size_t kDateAt = 24;
+    bytes.replace(kDateAt, 12, std::string { 7, char(0xDA), 0, 1, 0, 1, 0, 0, 0, 0, 0, 0 });
+    return bytes;
+}
+
 }  // namespace pimg

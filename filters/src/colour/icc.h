@@ -25,4 +25,7 @@ struct IccSpace {
 /// matrix.
 bool read_icc(const void* profile, std::size_t size, IccSpace& space);
 
+/// The profile of Display P3: the primaries of DCI-P3, the white of D65 and the curve of sRGB.
+std::string display_p3_profile();
+
 }  // namespace pimg

@@ -128,8 +128,23 @@ private:
     Lab m_lab;
 };
 
-HWY_INLINE auto outside(const Pixels& p)
+// Between linear Rec. 709 and Display P3, which have one white.
+constexpr float kToP3[3][3] = { { 0.8224619688f, 0.1775380312f, 0.0f },
+                                { 0.0331941989f, 0.9668058011f, 0.0f },
+                                { 0.0170826307f, 0.0723974407f, 0.9105199286f } };
+constexpr float kFromP3[3][3] = { { 1.2249401763f, -0.2249401763f, 0.0f },
+                                  { -0.0420569547f, 1.0420569547f, 0.0f },
+                                  { -0.0196375546f, -0.0786360456f, 1.0982736001f } };
+
+HWY_INLINE Pixels converted(const float (&matrix)[3][3], const Pixels& p)
 {
+    return { weighted(matrix[0], p.r, p.g, p.b), weighted(matrix[1], p.r, p.g, p.b),
+             weighted(matrix[2], p.r, p.g, p.b) };
+}
+
+HWY_INLINE auto outside(const Recolour& how, const Pixels& rec709)
+{
+    const Pixels p = how.wide ? converted(kToP3, rec709) : rec709;
     const Vector least = hn::Min(hn::Min(p.r, p.g), p.b), most = hn::Max(hn::Max(p.r, p.g), p.b);
     return hn::Or(least<set(0.0f), most> set(1.0f));
 }
@@ -143,19 +158,19 @@ HWY_INLINE void into_gamut(const Recolour& how, Vector y, Pixels& p)
     Pixels beyond = p;
     for (Vector* channel : { &beyond.r, &beyond.g, &beyond.b })
         *channel = y + set(kMargin) * (*channel - y);
-    const auto near = outside(beyond);
+    const auto near = outside(how, beyond);
     if (hn::AllFalse(Lanes(), near))
         return;
     const HueLine line(how, y, p);
     // The share at which the line leaves the gamut, if that is before 1 / kFullSaturation.
     constexpr int kHalvings = 10;  // to a thousandth of the way, which is not seen
     Vector in = set(0.0f), out = set(1.0f / kFullSaturation);
-    const auto leaves = hn::And(near, outside(line.at(out)));
+    const auto leaves = hn::And(near, outside(how, line.at(out)));
     if (hn::AllFalse(Lanes(), leaves))
         return;
     for (int i = 0; i < kHalvings; ++i) {
         const Vector middle = set(0.5f) * (in + out);
-        const auto is_out = outside(line.at(middle));
+        const auto is_out = outside(how, line.at(middle));
         out = hn::IfThenElse(is_out, middle, out);
         in = hn::IfThenElse(is_out, in, middle);
     }
@@ -166,8 +181,12 @@ HWY_INLINE void into_gamut(const Recolour& how, Vector y, Pixels& p)
     p.r = hn::IfThenElse(leaves, drawn.r, p.r);
     p.g = hn::IfThenElse(leaves, drawn.g, p.g);
     p.b = hn::IfThenElse(leaves, drawn.b, p.b);
+    if (how.wide)
+        p = converted(kToP3, p);
     for (Vector* channel : { &p.r, &p.g, &p.b })
         *channel = hn::Min(hn::Max(*channel, set(0.0f)), set(1.0f));
+    if (how.wide)
+        p = converted(kFromP3, p);
 }
 
 /// Mixes colours with the grey of their luminance; the more, the more of their light is noise.

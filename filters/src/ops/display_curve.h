@@ -29,9 +29,10 @@ struct Recolour {
     bool fit;                      ///< whether results fit a display: tone curve, colours moved into its gamut
     ToneCurve curve;
     float read, photon;  ///< variance of the luminance of noise: colour fades where light is no more than that
+    bool wide = false;   ///< the gamut is that of Display P3 instead of Rec. 709
 };
 
-/// Recolours `count` linear RGB triples in place. `compressed` and `guide` are their log luminances after compression
+/// Recolours `count` linear RGB triples in place; with `fit` they are Rec. 709. `compressed` and `guide` are their log luminances after compression
 /// and before. Colours that the display cannot show move towards the grey of their luminance, along a line of constant
 /// hue in Oklab (B. Ottosson, "A perceptual color space for image processing", 2020). Colours near the limits of the
 /// display move a little, too, so that no edge shows where a channel reaches its maximum.

@@ -56,7 +56,7 @@ ToneCurve tone_curve(const HdrCompressOptions& options)
     const float toe = std::clamp(darkest * darkest / kBlack - darkest, 0.0f, kMostToe);
     const float reaches_most = head * head / (head + toe);
     // What is no brighter than the display needs no shoulder, and is not made brighter either.
-    const float most = std::min(options.peak / kWhiteNits, std::max(reaches_most, 1.0f));
+    const float most = std::min(options.peak / kSdrWhiteNits, std::max(reaches_most, 1.0f));
     return ToneCurve(toe, reaches_most, most);
 }
 
@@ -111,7 +111,7 @@ void find_exposure(CompressedCells cells, float scene_key, float dark, HdrCompre
     HdrCompressOptions trial = options;
     std::vector<float> scratch(cells.size());
     trial.exposure = 0.0f;
-    trial.peak = kWhiteNits;  // the same picture for every display
+    trial.peak = kSdrWhiteNits;  // the same picture for every display
     const auto [least, most] = std::minmax_element(
         cells.begin(), cells.end(), [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
     float low = least->value - 16.0f, high = most->value + 16.0f;

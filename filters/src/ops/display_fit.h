@@ -11,9 +11,6 @@
 
 namespace pimg {
 
-/// Luminance of the white of a picture on a display, in nits: reference white of ITU-R BT.2408.
-constexpr float kWhiteNits = 203.0f;
-
 /// What s0, dmax and detail are where they are 0: dmax a share of the picture's dynamic range, `range` stops, and the
 /// others all from dmax, so that pictures compressed with one dmax are treated alike.
 void find_compression(float range, HdrCompressOptions& options);

@@ -2,6 +2,7 @@
 // HDR compression (paper, section 5.1):
 //   log luminance ──gains──▶ compressed ──exposure──▶ display luminance ──colour ratio──▶ display RGB
 #include <pimg/detail/format.h>
+#include <pimg/display.h>
 #include <pimg/imagebufalgo.h>
 
 #include <algorithm>
@@ -218,7 +219,8 @@ private:
                  options.fit,
                  options.fit ? tone_curve(options) : ToneCurve(0.0f, 1.0f, 1.0f),
                  compressed.noise.read,
-                 compressed.noise.photon };
+                 compressed.noise.photon,
+                 options.gamut == "p3" };
     }
 
     const float* compressed(Index pixel) const { return &(*m_compressed.samples)[pixel]; }
@@ -373,6 +375,7 @@ bool on_hierarchy::hdr_compress(ImageBuf& dst, const ProgressiveImage& src, cons
             write_rows(dst, data, roi, parallel, [&](const RowSpan& span, float* row) { renderer.render(span, row); });
         }
         data.colour.declare_linear(dst.specmod());
+        declare_gamut(dst.specmod(), options.output == "display" && options.fit ? options.gamut : "");
         return true;
     });
 }

@@ -6,7 +6,7 @@
 // show the base. The format is described by ISO 21496-1 (the metadata), CIPA DC-007 (the Multi-Picture Format, the index
 // of both pictures) and Android's Ultra HDR image format 1.1 (the XMP packet that older readers look for).
 //
-// Pictures are display-linear: light in proportion, 1 is the white of an SDR picture, 203 nits (ITU-R BT.2408).
+// Pictures are display-linear: light in proportion, 1 is the white of an SDR picture, kSdrWhiteNits.
 #pragma once
 
 #include <string>
@@ -16,14 +16,12 @@
 
 namespace pimg {
 
-/// Light of the white of an SDR picture, in nits: the reference of every gain-map file (ITU-R BT.2408).
-constexpr float kSdrWhiteNits = 203.0f;
-
 /// How a gain map is made; its option_table has ranges and help.
 struct GainMapOptions {
-    int scale = 2;     ///< side of the square of pixels that one sample of the map stands for: 1, 2 or 4
+    int scale = 0;     ///< side of the square of pixels that one sample of the map stands for: 1, 2 or 4; 0 finds it,
+                       ///< 1 where the rendition of a map with 2 would be 0.08 stops off at the 95th percentile, else 2
     int channels = 3;  ///< 3: red, green and blue have maps of their own; 1: one map of luminance
-    int quality = 90;  ///< JPEG quality of the map, 1 .. 100
+    int quality = 87;  ///< JPEG quality of the map, 1 .. 100
 };
 
 template<>

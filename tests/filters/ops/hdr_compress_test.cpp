@@ -39,6 +39,30 @@ TEST(HdrCompress, IsDisplayLinear)
     EXPECT_LT(sorted[sorted.size() / 2], 80.0f);
 }
 
+/// A display of Display P3 shows a green that one of Rec. 709 cannot, and other colours alike.
+TEST(HdrCompress, GamutOfTheDisplay)
+{
+    ImageBuf src = picture(64, 48, 3, OIIO::TypeFloat);
+    for (ImageBuf::Iterator<float> p(src); !p.done(); ++p) {
+        const bool vivid = p.x() < 20;
+        const float light = p.x() > 40 ? 4.0f : 0.3f;
+        p[0] = vivid ? -0.1f * light : light;
+        p[1] = light;
+        p[2] = vivid ? -0.03f * light : 0.8f * light;
+    }
+    HdrCompressOptions options;
+    options.gamut = "p3";
+    const ImageBuf narrow = compressed(src), wide = compressed(src, options);
+    for (ImageBuf::ConstIterator<float> n(narrow), w(wide); !n.done(); ++n, ++w) {
+        EXPECT_GE(std::min({ n[0], n[1], n[2] }), 0.0f);
+        EXPECT_TRUE(n.x() < 20 || n[0] == w[0]);
+        const float red = 0.8224620f * w[0] + 0.1775380f * w[1];  // of Display P3
+        EXPECT_GE(red, -1e-5f);
+        EXPECT_LE(std::max({ red, w[1], w[2] }), 1.0f);
+    }
+    EXPECT_LT(wide.getchannel(10, 20, 0, 0), -0.005f);
+}
+
 /// An HDR display shows the same picture up to white, and highlights beyond it.
 TEST(HdrCompress, PeakOfTheDisplay)
 {
