@@ -48,6 +48,25 @@ for tile in 0 100; do
     done
 done
 
+# Random keys, clicks, drags and turns of the wheel. PIMG_RANDOM_EVENTS asks for more than a test of a minute can play.
+for seed in 1 2; do
+    view scene.exr photo.png --script "--hdr-compress --detail-enhance" --random-events "${PIMG_RANDOM_EVENTS:-300}" --seed $seed --size 800x600
+done
+
+# Pictures of one pixel, of one long row, and with NaN.
+"$PYTHON" - <<'PY'
+import numpy, OpenImageIO as oiio
+from pictures import write
+write("one.exr", numpy.full((1, 1, 3), 0.5, numpy.float32), "float")
+long = numpy.linspace(0, 2, 30000 * 40 * 3, dtype=numpy.float32).reshape(40, 30000, 3)
+long[3, 100:200] = numpy.nan
+long[4, 5] = numpy.inf
+write("long.exr", long, "float")
+PY
+for file in one.exr long.exr; do
+    view $file --script "--hdr-compress" --screenshot shot.png --size 400x300
+done
+
 fails() { # pattern arguments...
     local pattern=$1
     shift
@@ -58,6 +77,8 @@ fails() { # pattern arguments...
     grep -q "$pattern" out.txt || { cat out.txt >&2 && exit 1; }
 }
 fails "nowhere.exr" nowhere.exr --screenshot shot.png
+head -c 500 scene.exr >cut.exr
+fails "cut.exr" cut.exr --screenshot shot.png
 fails "bata" scene.exr --script "--hdr-compress:bata=1"
 fails "unknown option" --purple
 if env -u DISPLAY -u WAYLAND_DISPLAY "$PIMGVIEW" scene.exr >out.txt 2>&1; then exit 1; fi

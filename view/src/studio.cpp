@@ -65,12 +65,14 @@ void Studio::want(const Wanted& asked)
         return;
     const OIIO::ImageSpec& spec = document.rungs[0].pixels->spec();
     Wanted wanted = asked;
+    bool changes = false;
     if (wanted.visible.empty())
         wanted.visible = { 0, 0, spec.width, spec.height };
     {
         const std::lock_guard<std::mutex> lock(m_mutex);
         if (is_served(wanted, document))
             return;
+        changes = m_request.wanted.stack != wanted.stack || m_request.document.version != document.version;
         m_request = { wanted, document, with_margin(wanted.visible, spec), m_request.serial + 1 };
         m_rungs_built = built_count(document);
     }
@@ -79,19 +81,21 @@ void Studio::want(const Wanted& asked)
     // A smaller copy comes first if there is one and the finest takes long, that is with filters.
     const bool both = finest != fitting && filters(wanted.stack);
     if (wanted.dragging || both)
-        post(m_quick, m_quick_renderer, true);
+        post(m_quick, m_quick_renderer, true, false);  // one after the other, or dragging would show nothing
     if (!wanted.dragging)
-        post(m_full, m_full_renderer, false);
+        post(m_full, m_full_renderer, false, changes);
+    else if (changes)
+        m_full.cancel();
 }
 
-void Studio::post(Worker& worker, Renderer& renderer, bool quick)
+void Studio::post(Worker& worker, Renderer& renderer, bool quick, bool at_once)
 {
     Request request;
     {
         const std::lock_guard<std::mutex> lock(m_mutex);
         request = m_request;
     }
-    worker.post([this, request, quick, &renderer](const std::atomic<bool>& stop) {
+    const auto job = [this, request, quick, &renderer](const std::atomic<bool>& stop) {
         std::string error;
         try {
             make(request, renderer, quick, stop);
@@ -104,7 +108,8 @@ void Studio::post(Worker& worker, Renderer& renderer, bool quick)
         const std::lock_guard<std::mutex> lock(m_mutex);
         m_error = error;
         m_error_serial = request.serial;
-    });
+    };
+    worker.post(job, at_once);
 }
 
 void Studio::make(const Request& request, Renderer& renderer, bool quick, const std::atomic<bool>& stop)
@@ -120,6 +125,8 @@ void Studio::make(const Request& request, Renderer& renderer, bool quick, const 
     }
     auto shown = std::make_shared<Shown>();
     shown->result = renderer.render(request.document, *rung, stack, stop);
+    if (!shown->result.pixels && stop)
+        return;
     if (!shown->result.pixels) {
         {
             const std::lock_guard<std::mutex> lock(m_mutex);
@@ -134,6 +141,7 @@ void Studio::make(const Request& request, Renderer& renderer, bool quick, const 
     shown->source.pixels = rung->pixels;
     shown->source.factor = rung->factor;
     shown->source.linear_light = request.document.linear_light;
+    shown->source.layer = request.document.build.layer;
     shown->final = !quick;
     shown->document = request.document.version;
     shown->serial = request.serial;

@@ -72,7 +72,7 @@ public:
     void save(const FilterStack& stack, const std::string& filename);
     SaveState saving() const;
 
-    /// Asks every thread to stop. False if one has not done so after a fifth of a second: a filter runs to its end.
+    /// Asks every thread to stop. False if one has not done so after a fifth of a second: reading runs to its end.
     bool stop();
 
 private:
@@ -83,7 +83,7 @@ private:
         int serial = 0;
     };
 
-    void post(Worker& worker, Renderer& renderer, bool quick);
+    void post(Worker& worker, Renderer& renderer, bool quick, bool at_once);
     void make(const Request& request, Renderer& renderer, bool quick, const std::atomic<bool>& stop);
     void add_source(const Request& request, Shown& shown) const;
     void add_overlays(const Request& request, const Rung& rung, Shown& shown) const;

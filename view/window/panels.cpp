@@ -47,6 +47,21 @@ std::string samples_text(const PixelValue& value)
     return text;
 }
 
+/// A list of names to choose from, and that the program finds one itself, which is the empty name. Whether it changed.
+bool chooser(const char* title, const std::vector<std::string>& names, std::string& chosen)
+{
+    const std::string before = chosen;
+    if (!ImGui::BeginCombo(title, chosen.empty() ? "found" : chosen.c_str()))
+        return false;
+    if (ImGui::Selectable("found", chosen.empty()))
+        chosen.clear();
+    for (const std::string& name : names)
+        if (ImGui::Selectable(name.c_str(), name == chosen))
+            chosen = name;
+    ImGui::EndCombo();
+    return chosen != before;
+}
+
 /// The look as texts of options, so that it can have the same widgets as filters.
 pimg::OptionTexts texts_of(const LookOptions& look)
 {
@@ -107,10 +122,25 @@ void Panels::files(Workbench& bench)
         }
         ImGui::EndListBox();
     }
+    parts_and_layers(bench);
     if (ImGui::Button(bench.opening ? "Close the browser" : "Open ..."))
         bench.opening = !bench.opening;
     if (bench.opening)
         browser(bench);
+}
+
+void Panels::parts_and_layers(Workbench& bench)
+{
+    const DocumentState document = bench.studio.document().state();
+    if (document.parts.size() > 1)
+        chooser("part", document.parts, bench.stack.part);
+    if (document.layers.empty())
+        return;
+    for (const OptionInfo& option : pimg::describe_options<pimg::BuildOptions>()) {
+        std::string layer = value_of(bench.stack.build, option);
+        if (std::string_view(option.key) == "layer" && chooser("layer", document.layers, layer))
+            set_value(bench.stack.build, option, layer);
+    }
 }
 
 void Panels::browser(Workbench& bench)

@@ -25,6 +25,7 @@ public:
 
 private:
     void files(Workbench& bench);
+    void parts_and_layers(Workbench& bench);
     void browser(Workbench& bench);
     void filters(Workbench& bench);
     bool filter(Workbench& bench, std::size_t index);

@@ -52,6 +52,8 @@ void Workbench::open(const std::vector<std::string>& given)
     if (given.empty())
         return;
     files = expand_files(given);
+    if (index >= 0)
+        stack.part.clear();  // the parts of another file have other names
     index = -1;
     go_to(0);
     if (!files.empty())
@@ -66,13 +68,21 @@ void Workbench::go_to(int next)
     if (next == index)
         return;
     index = next;
-    m_built = stack.build;
     message.clear();
-    studio.document().open(files[std::size_t(index)], stack.build);
+    open_document();
+}
+
+void Workbench::open_document()
+{
+    m_built = stack.build;
+    m_part = stack.part;
+    studio.document().open(files[std::size_t(index)], stack.part, stack.build);
 }
 
 void Workbench::update(const Region& visible, double scale, bool dragging)
 {
+    if (m_part != stack.part && index >= 0)
+        open_document();
     if (m_built != stack.build && !dragging) {
         m_built = stack.build;
         studio.document().rebuild(stack.build);

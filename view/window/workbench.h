@@ -59,11 +59,13 @@ public:
     bool sheet = false, opening = false, saving = false, quit = false, copied = false;
 
 private:
+    void open_document();
     void restore(const Snapshot& snapshot);
     void act_on_look(Action action);
 
     History<Snapshot> m_history;
     pimg::OptionTexts m_built;  ///< options of building the document has
+    std::string m_part;         ///< part of the file that the document has
     std::shared_ptr<const Shown> m_last_played;
 };
 

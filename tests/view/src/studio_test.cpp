@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imageio.h>
 
 #include <pimg/imagebufalgo.h>
 
@@ -153,7 +154,7 @@ TEST(Studio, ShowsWhatTheFilterMakes)
 {
     const std::string name = make_picture(160, 120);
     Studio studio([] {});
-    studio.document().open(name, {});
+    studio.document().open(name, "", {});
     Wanted wanted;
     wanted.stack = stack_of("--hdr-compress:beta=20 --detail-enhance:gain=1.5");
     wait_for(studio, wanted);
@@ -178,7 +179,7 @@ TEST(Studio, DraggingShowsASmallerCopyFirst)
 {
     const std::string name = make_picture(1400, 1300);
     Studio studio([] {});
-    studio.document().open(name, {});
+    studio.document().open(name, "", {});
     Wanted wanted;
     wait_for(studio, wanted);
     ASSERT_EQ(studio.document().state().rungs.size(), 3u);
@@ -203,7 +204,7 @@ TEST(Studio, EndsWhileItBuilds)
     double closing = 0.0;
     {
         Studio studio([] {});
-        studio.document().open(name, {});
+        studio.document().open(name, "", {});
         while (studio.document().state().activity != "building")
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         const auto asked = std::chrono::steady_clock::now();
@@ -214,13 +215,66 @@ TEST(Studio, EndsWhileItBuilds)
     EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(60));
 }
 
+/// A filter that takes long does not hold up the next setting.
+TEST(Studio, LeavesAFilterWhoseSettingHasChanged)
+{
+    const std::string name = make_picture(1400, 1300);
+    Studio studio([] {});
+    studio.document().open(name, "", {});
+    Wanted wanted;
+    wait_for(studio, wanted);
+    wanted.stack = stack_of("--paint");
+    studio.want(wanted);
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    wanted.stack = stack_of("--level:fraction=0.5");
+    wait_for(studio, wanted);
+    EXPECT_TRUE(studio.error().empty()) << studio.error();
+    EXPECT_EQ(studio.shown()->result.pixels->spec().width, 1400);
+    wanted.stack = stack_of("--paint");
+    studio.want(wanted);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    EXPECT_TRUE(studio.stop()) << "closing waits for no filter";
+}
+
+TEST(Studio, ChoosesPartsAndLayers)
+{
+    OIIO::ImageSpec spec(64, 48, 6, OIIO::TypeFloat);
+    spec.channelnames = { "diffuse.R", "diffuse.G", "diffuse.B", "specular.R", "specular.G", "specular.B" };
+    const auto out = OIIO::ImageOutput::create("parts.exr");
+    std::vector<OIIO::ImageSpec> specs(2, spec);
+    specs[0].attribute("oiio:subimagename", "first");
+    specs[1].attribute("oiio:subimagename", "second");
+    ASSERT_TRUE(out->open("parts.exr", 2, specs.data())) << out->geterror();
+    std::vector<float> samples(std::size_t(64 * 48 * 6));
+    for (int part = 0; part < 2; ++part) {
+        for (std::size_t i = 0; i < samples.size(); ++i)
+            samples[i] = float(1 + part) * (i % 6 < 3 ? 0.1f : 0.4f);
+        ASSERT_TRUE(part == 0 || out->open("parts.exr", specs[1], OIIO::ImageOutput::AppendSubimage));
+        ASSERT_TRUE(out->write_image(OIIO::TypeFloat, samples.data())) << out->geterror();
+    }
+    ASSERT_TRUE(out->close());
+    Studio studio([] {});
+    studio.document().open("parts.exr", "second", { { "layer", "specular" } });
+    wait_for(studio, {});
+    const DocumentState state = studio.document().state();
+    EXPECT_EQ(state.error, "");
+    EXPECT_EQ(state.parts, (std::vector<std::string> { "first", "second" }));
+    EXPECT_EQ(state.layers, (std::vector<std::string> { "diffuse", "specular" }));
+    ASSERT_TRUE(studio.shown());
+    EXPECT_EQ(studio.shown()->frame->rgb[0], 0.8f);
+    const FilterStack stack = stack_of("pimgtool --part second parts.exr --build:layer=specular --level");
+    EXPECT_EQ(stack.part, "second");
+    EXPECT_EQ(shell_line("parts.exr", stack, "o.png"),
+              "pimgtool --part second parts.exr --build:layer=specular --level -o o.png");
+}
+
 TEST(Studio, SaysWhyAFileCannotBeRead)
 {
     Studio studio([] {});
-    studio.document().open("nowhere.exr", {});
+    studio.document().open("nowhere.exr", "", {});
     wait_for(studio, {});
     EXPECT_NE(studio.document().state().error.find("nowhere.exr"), std::string::npos);
-    studio.document().open(make_picture(160, 120), { { "guide", "purple" } });
+    studio.document().open(make_picture(160, 120), "", { { "guide", "purple" } });
     wait_for(studio, {});
     EXPECT_NE(studio.document().state().error.find("guide"), std::string::npos);
 }
@@ -229,7 +283,7 @@ TEST(Studio, SavesWhatIsShown)
 {
     const std::string name = make_picture(160, 120);
     Studio studio([] {});
-    studio.document().open(name, {});
+    studio.document().open(name, "", {});
     Wanted wanted;
     wanted.stack = stack_of("--level:fraction=0.1");
     wait_for(studio, wanted);

@@ -7,8 +7,10 @@
 #include <exception>
 
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
 #include <OpenImageIO/sysutil.h>
 
+#include <pimg/colour.h>
 #include <pimg/detail/format.h>
 #include <pimg/filter_table.h>
 #include <pimg/threads.h>
@@ -51,6 +53,31 @@ void reduce_row(const std::vector<float>& source, const ImageSpec& from, int fac
                 }
             row[x * channels + c] = count > 0 ? float(sum / count) : 0.0f;
         }
+}
+
+std::vector<std::string> parts_of(const std::string& filename)
+{
+    std::vector<std::string> names;
+    const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(pimg::io::file_of(filename));
+    for (int part = 0; in && in->seek_subimage(part, 0); ++part)
+        names.push_back(pimgtool::part_name(in->spec(), part));
+    OIIO::geterror();
+    return names;
+}
+
+/// The layers of a part, in the order of its channels, whose channels can be a picture.
+std::vector<std::string> layers_of(const ImageSpec& spec)
+{
+    std::vector<std::string> layers;
+    for (const std::string& channel : spec.channelnames) {
+        const std::string layer = channel.substr(0, channel.rfind('.') == channel.npos ? 0 : channel.rfind('.'));
+        pimg::Colour colour;
+        std::string error;
+        if (!layer.empty() && std::find(layers.begin(), layers.end(), layer) == layers.end()
+            && pimg::Colour::resolve(spec, "", layer, colour, error))
+            layers.push_back(layer);
+    }
+    return layers;
 }
 
 }  // namespace
@@ -141,17 +168,18 @@ void Document::fail(int version, const std::string& error)
     });
 }
 
-void Document::open(const std::string& filename, const pimg::OptionTexts& build)
+void Document::open(const std::string& filename, const std::string& part, const pimg::OptionTexts& build)
 {
-    begin(filename, build, false);
+    begin(filename, part, build, false);
 }
 
 void Document::rebuild(const pimg::OptionTexts& build)
 {
-    begin(state().filename, build, state().has_picture());
+    const DocumentState now = state();
+    begin(now.filename, now.part, build, now.has_picture());
 }
 
-void Document::begin(const std::string& filename, const pimg::OptionTexts& texts, bool again)
+void Document::begin(const std::string& filename, const std::string& part, const pimg::OptionTexts& texts, bool again)
 {
     m_worker.cancel();
     int version = 0;
@@ -160,9 +188,12 @@ void Document::begin(const std::string& filename, const pimg::OptionTexts& texts
         const std::lock_guard<std::mutex> lock(m_mutex);
         DocumentState next;
         next.filename = filename;
+        next.part = part;
         next.version = version = m_state.version + 1;
         if (again) {
             next.rungs = m_state.rungs;
+            next.parts = m_state.parts;
+            next.layers = m_state.layers;
             next.stored = m_state.stored;
             next.linear_light = m_state.linear_light;
             next.read_seconds = m_state.read_seconds;
@@ -195,6 +226,7 @@ bool Document::read(int version)
     const std::string filename = state().filename;
     pimgtool::Session session;
     session.announce(filename);
+    session.input.part = state().part;
     if (!OIIO::Filesystem::exists(pimg::io::file_of(filename))) {
         fail(version, format("cannot read \"{}\": no such file", filename));
         return false;
@@ -210,7 +242,10 @@ bool Document::read(int version)
                     picture.pixels->deep() ? "deep" : "a volume"));
         return false;
     }
+    const std::vector<std::string> parts = parts_of(filename), layers = layers_of(picture.pixels->spec());
     update(version, [&](DocumentState& state) {
+        state.parts = parts;
+        state.layers = layers;
         state.rungs = { { 1, picture.pixels, nullptr } };
         state.stored = picture.stored;
         state.linear_light = picture.linear_light;

@@ -29,7 +29,10 @@ struct Rung {
 /// What there is of a file so far.
 struct DocumentState {
     std::string filename;
-    std::vector<Rung> rungs;  ///< the file's own size first, then smaller ones; none until it has been read
+    std::string part;                 ///< that was asked for; empty: the first that holds a picture
+    std::vector<std::string> parts;   ///< names of all parts of the file
+    std::vector<std::string> layers;  ///< of the part, those that may be the picture
+    std::vector<Rung> rungs;          ///< the file's own size first, then smaller ones; none until it has been read
     pimgtool::PixelTypes stored;
     bool linear_light = false;
     pimg::BuildOptions build;
@@ -52,7 +55,7 @@ public:
     explicit Document(std::function<void()> changed);
 
     /// Forgets the present file and begins with another.
-    void open(const std::string& filename, const pimg::OptionTexts& build);
+    void open(const std::string& filename, const std::string& part, const pimg::OptionTexts& build);
 
     /// Builds anew with other options. Those that are wrong become the error.
     void rebuild(const pimg::OptionTexts& build);
@@ -64,7 +67,7 @@ public:
     bool idle() const { return m_worker.idle(); }
 
 private:
-    void begin(const std::string& filename, const pimg::OptionTexts& build, bool again);
+    void begin(const std::string& filename, const std::string& part, const pimg::OptionTexts& build, bool again);
     bool current(int version) const;
     bool read(int version);
     void build(int version, const std::atomic<bool>& stop);

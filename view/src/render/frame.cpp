@@ -93,7 +93,7 @@ struct Reading {
         std::string error;
         const ImageSpec& spec = rendering.pixels->spec();
         labels = rendering.labels;
-        known = pimg::Colour::resolve(spec, "", "", colour, error);
+        known = pimg::Colour::resolve(spec, "", rendering.layer, colour, error);
         grey = !known || colour.count() < 3;
         for (int c = 0; c < 3 && known; ++c)
             channels[c] = colour.channel(grey ? 0 : c);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <pimg/detail/format.h>
+#include <pimg/detail/stop.h>
 #include <pimg/labels.h>
 
 #include "session/pimg_file.h"
@@ -37,8 +38,10 @@ std::shared_ptr<const pimg::ProgressiveImage> build(const ImageBuf& pixels, cons
 
 }  // namespace
 
-bool Renderer::apply(const StackItem& item, Stage& stage, const Rendering& before, const pimg::ProgressiveImage& image)
+bool Renderer::apply(const StackItem& item, Stage& stage, const Rendering& before, const pimg::ProgressiveImage& image,
+                     const std::atomic<bool>& stop)
 {
+    const pimg::StopScope scope([&stop] { return !stop; });
     pimg::BoundFilter filter;
     std::string error;
     auto result = std::make_shared<ImageBuf>();
@@ -47,10 +50,13 @@ bool Renderer::apply(const StackItem& item, Stage& stage, const Rendering& befor
     else if (!filter(*result, image, {}, 0))
         stage.result.error =
             format("{}: {}", item.filter->command, result->has_error() ? result->geterror() : "failed");
+    if (stop)
+        stage.result.error = "stopped";
     if (!stage.result.error.empty())
         return false;
     stage.result.pixels = result;
     stage.result.factor = before.factor;
+    stage.result.layer = before.layer;
     stage.result.linear_light = before.linear_light || filter.output == pimg::FilterOutput::light;
     stage.result.labels =
         result->spec().format == OIIO::TypeUInt32 && result->spec().find_attribute(pimg::kLabelCount) != nullptr;
@@ -69,6 +75,7 @@ Rendering Renderer::render(const DocumentState& document, const Rung& rung, cons
     source.pixels = rung.pixels;
     source.factor = rung.factor;
     source.linear_light = document.linear_light;
+    source.layer = document.build.layer;
     const Rendering* before = &source;
     std::shared_ptr<const pimg::ProgressiveImage> image = rung.image;
     std::size_t at = 0;
@@ -76,7 +83,7 @@ Rendering Renderer::render(const DocumentState& document, const Rung& rung, cons
     for (const StackItem& item : stack.items) {
         if (!item.on)
             continue;
-        const std::string argument = arguments_of({ {}, { item } })[0];
+        const std::string argument = arguments_of({ {}, {}, { item } })[0];
         if (at == m_stages.size() || m_stages[at].argument != argument) {
             m_stages.resize(at);
             Stage stage { argument, {}, nullptr };
@@ -84,7 +91,7 @@ Rendering Renderer::render(const DocumentState& document, const Rung& rung, cons
                 m_stages[at - 1].image =
                     build(*before->pixels, options_of_next(document.build), stop, stage.result.error);
             image = at > 0 ? m_stages[at - 1].image : image;
-            if (!image || !apply(item, stage, *before, *image))
+            if (!image || !apply(item, stage, *before, *image, stop))
                 return stage.result;
             m_stages.push_back(std::move(stage));
         }
@@ -143,6 +150,7 @@ bool save(const DocumentState& document, const FilterStack& stack, const std::st
         *result.pixels, document.stored, result.linear_light, result.labels, image ? &image->hierarchy() : nullptr,
         options
     };
+    out.layer = result.layer;
     if (result.labels) {
         out.types = { OIIO::TypeUnknown, {} };
         out.encode_srgb = false;

@@ -18,6 +18,7 @@ struct Rendering {
     int factor = 1;                                ///< of the rung it was made from
     bool linear_light = false;  ///< its numbers are linear light, to be encoded for files of whole numbers
     bool labels = false;        ///< its numbers are those of regions
+    std::string layer;          ///< the picture among its channels; see BuildOptions
     double seconds = 0.0;       ///< spent in filters and in building what later filters need
     std::string error;          ///< one line that begins with the filter's command; "stopped" when asked to stop
 };
@@ -38,7 +39,8 @@ private:
         std::shared_ptr<const pimg::ProgressiveImage> image;
     };
 
-    bool apply(const StackItem& item, Stage& stage, const Rendering& before, const pimg::ProgressiveImage& image);
+    bool apply(const StackItem& item, Stage& stage, const Rendering& before, const pimg::ProgressiveImage& image,
+               const std::atomic<bool>& stop);
 
     std::vector<Stage> m_stages;
     std::shared_ptr<const OIIO::ImageBuf> m_source;

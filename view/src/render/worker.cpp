@@ -19,11 +19,12 @@ Worker::~Worker()
     m_thread.join();
 }
 
-void Worker::post(Job job)
+void Worker::post(Job job, bool at_once)
 {
     {
         const std::lock_guard<std::mutex> lock(m_mutex);
         m_next = std::move(job);
+        m_stop = m_stop || (at_once && m_busy);
     }
     m_wake.notify_one();
 }

@@ -22,7 +22,8 @@ public:
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
 
-    void post(Job job);
+    /// `at_once`: the running job is asked to stop, as nobody wants its result any more.
+    void post(Job job, bool at_once = false);
 
     /// Drops the job that waits and asks the running one to stop.
     void cancel();

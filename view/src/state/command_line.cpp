@@ -111,6 +111,8 @@ std::vector<std::string> arguments_of(const FilterStack& stack)
 std::string shell_line(const std::string& file, const FilterStack& stack, const std::string& output)
 {
     std::string line = "pimgtool";
+    if (!file.empty() && !stack.part.empty())
+        line += " --part " + shell_word(stack.part);
     if (!file.empty())
         line += " " + shell_word(file);
     for (const std::string& word : arguments_of(stack))
@@ -166,12 +168,13 @@ bool parse_script(const std::vector<std::string>& words, Script& script, std::st
             script.files.push_back(word);
             continue;
         }
-        if (word == "-o") {
+        if (word == "-o" || word == "--part") {
             if (i + 1 == words.size()) {
-                error = "-o: expected the name of a file after it";
+                error = format("{}: expected the name of a {} after it", word, word == "-o" ? "file" : "part");
                 return false;
             }
-            script.output = words[++i];
+            (word == "-o" ? script.output : script.stack.part) = words[++i];
+            script.has_stack = script.has_stack || word == "--part";
             continue;
         }
         if (!parse_operation(word, script, error)) {

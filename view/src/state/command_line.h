@@ -13,7 +13,7 @@ namespace pimgview {
 /// The operations of a stack as arguments of pimgtool, without those that are off.
 std::vector<std::string> arguments_of(const FilterStack& stack);
 
-/// One line for a shell: `pimgtool FILE OPERATIONS -o OUTPUT`. Words are quoted where they need it; an empty `file` or
+/// One line for a shell: `pimgtool [--part PART] FILE OPERATIONS -o OUTPUT`. Words are quoted where they need it; an empty `file` or
 /// `output` is left out with what belongs to it.
 std::string shell_line(const std::string& file, const FilterStack& stack, const std::string& output);
 
@@ -33,7 +33,7 @@ struct Script {
     std::string output;  ///< the file of -o; empty: none
 };
 
-/// Reads the operations on one picture of pimgtool's command line (--build and the filters), file names, -o FILE and
+/// Reads the operations on one picture of pimgtool's command line (--part, --build and the filters), file names, -o FILE and
 /// --view. A first word "pimgtool" or "pimgview" is passed over. False with one line in `error` for all else.
 bool parse_script(const std::vector<std::string>& words, Script& script, std::string& error);
 

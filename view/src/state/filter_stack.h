@@ -23,12 +23,13 @@ struct StackItem {
 
 /// What makes the result from a file, and what undo brings back.
 struct FilterStack {
+    std::string part;         ///< of the file, by name or number; empty: the first that holds a picture
     pimg::OptionTexts build;  ///< options of BuildOptions given
     std::vector<StackItem> items;
 
     friend bool operator==(const FilterStack& a, const FilterStack& b)
     {
-        return a.build == b.build && a.items == b.items;
+        return a.part == b.part && a.build == b.build && a.items == b.items;
     }
     friend bool operator!=(const FilterStack& a, const FilterStack& b) { return !(a == b); }
 };
