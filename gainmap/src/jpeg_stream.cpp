@@ -83,6 +83,12 @@ bool read_segment(std::string_view stream, std::size_t& at, JpegSegment& segment
     return true;
 }
 
+/// The first line of what OpenImageIO says, which may be many.
+std::string first_line(const std::string& message)
+{
+    return one_line(message.substr(0, message.find('\n')));
+}
+
 /// The next marker in coded data that is neither a stuffed byte nor a restart.
 std::size_t end_of_scan(std::string_view bytes, std::size_t at)
 {
@@ -154,7 +160,7 @@ bool decode_jpeg(std::string_view stream, const OIIO::ImageSpec* base, OIIO::Ima
     OIIO::Filesystem::IOMemReader memory(const_cast<char*>(stream.data()), stream.size());
     const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open("picture.jpg", nullptr, &memory);
     if (!in) {
-        error = OIIO::geterror();
+        error = first_line(OIIO::geterror());
         return false;
     }
     OIIO::ImageSpec spec = in->spec();
@@ -170,7 +176,7 @@ bool decode_jpeg(std::string_view stream, const OIIO::ImageSpec* base, OIIO::Ima
     spec.set_format(OIIO::TypeFloat);
     pixels.reset(spec);
     if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, pixels.localpixels())) {
-        error = in->geterror();
+        error = first_line(in->geterror());
         return false;
     }
     return true;

@@ -53,6 +53,36 @@ for seed in 1 2; do
     view scene.exr photo.png --script "--hdr-compress --detail-enhance" --random-events "${PIMG_RANDOM_EVENTS:-300}" --seed $seed --size 800x600
 done
 
+# A user's hands, where xdotool is there: drags the picture, zooms, splits, undoes, and closes the window; then closes it
+# while a large picture is being built.
+cat >hands.sh <<'SH'
+set -euo pipefail
+"$PIMGVIEW" "$1" --script "--hdr-compress" --size 800x600 &
+window=$(xdotool search --sync --onlyvisible --name pimgview | head -1)
+xdotool windowfocus "$window" || true
+if [[ $2 == play ]]; then
+    xdotool mousemove --window "$window" 600 300 mousedown 1 mousemove_relative 60 40 mouseup 1 click --repeat 3 4 click 5
+    for key in s d d b m p ctrl+z ctrl+y F1 F1; do xdotool key --window "$window" "$key"; done
+fi
+before=$SECONDS
+for _ in 1 2 3 4 5; do
+    xdotool key --window "$window" q 2>/dev/null || break
+    sleep 0.2
+done
+wait $!
+[[ $((SECONDS - before)) -lt 20 ]] || { echo "closing took $((SECONDS - before)) s" >&2 && exit 1; }
+SH
+if command -v xdotool >/dev/null; then
+    "$PYTHON" - <<'PY'
+import numpy
+from pictures import write
+write("large.exr", numpy.random.default_rng(2).random((2000, 2500, 3), numpy.float32), "half")
+PY
+    export PIMGVIEW
+    xvfb-run -a -s "-screen 0 1280x1024x24" bash hands.sh scene.exr play
+    xvfb-run -a -s "-screen 0 1280x1024x24" bash hands.sh large.exr close
+fi
+
 # Pictures of one pixel, of one long row, and with NaN.
 "$PYTHON" - <<'PY'
 import numpy, OpenImageIO as oiio
