@@ -27,43 +27,6 @@ bool begins_stream(std::string_view bytes)
     return bytes.size() >= 4 && byte_at(bytes, 0) == 0xFF && byte_at(bytes, 1) == kStart && byte_at(bytes, 2) == 0xFF;
 }
 
-std::size_t number_at(std::string_view bytes, std::size_t i)
-{
-    return std::size_t(byte_at(bytes, i)) << 24 | std::size_t(byte_at(bytes, i + 1)) << 16
-        | std::size_t(byte_at(bytes, i + 2)) << 8 | byte_at(bytes, i + 3);
-}
-
-/// Whether all that the tags of an ICC profile point to is inside of it (ICC.1, 7.3). OpenImageIO 2.4 reads it unseen.
-bool is_sound(const std::string& profile)
-{
-    constexpr std::size_t kHeader = 128, kTag = 12;
-    if (profile.size() < kHeader + 4)
-        return false;
-    const std::size_t tags = number_at(profile, kHeader);
-    if (tags > (profile.size() - kHeader - 4) / kTag)
-        return false;
-    for (std::size_t t = 0; t < tags; ++t) {
-        const std::size_t tag = kHeader + 4 + t * kTag;
-        const std::size_t offset = number_at(profile, tag + 4), size = number_at(profile, tag + 8);
-        if (offset > profile.size() || size > profile.size() - offset)
-            return false;
-    }
-    return true;
-}
-
-bool has_sound_profile(std::string_view stream)
-{
-    constexpr std::string_view kName { "ICC_PROFILE\0", 12 };
-    constexpr std::size_t kNumbers = 2;  // which part of a profile it is, and of how many
-    std::vector<JpegSegment> header;
-    std::string profile;
-    jpeg_header(stream, header);
-    for (const JpegSegment& segment : header)
-        if (segment.marker == kApp2 && segment.payload.substr(0, kName.size()) == kName)
-            profile += segment.payload.substr(std::min(kName.size() + kNumbers, segment.payload.size()));
-    return profile.empty() || is_sound(profile);
-}
-
 /// Reads the segment whose marker is at `at`, and moves `at` behind it. False if the segment has no length or is cut
 /// off.
 bool read_segment(std::string_view stream, std::size_t& at, JpegSegment& segment)
@@ -81,6 +44,24 @@ bool read_segment(std::string_view stream, std::size_t& at, JpegSegment& segment
     segment.payload = stream.substr(at + 4, length - 2);
     at += 2 + length;
     return true;
+}
+
+/// Takes a stream apart into its ICC profile (ICC.1, annex B.4) and what is left. OpenImageIO 2.4 reads beyond the end of
+/// damaged profiles, and so gets none.
+void take_profile(std::string_view stream, std::string& rest, std::string& profile)
+{
+    constexpr std::string_view kName { "ICC_PROFILE\0", 12 };
+    constexpr std::size_t kNumbers = 2;  // which part of a profile it is, and of how many
+    std::vector<JpegSegment> header;
+    jpeg_header(stream, header);
+    std::size_t at = 0;
+    for (const JpegSegment& segment : header)
+        if (segment.marker == kApp2 && segment.payload.substr(0, kName.size()) == kName) {
+            profile += segment.payload.substr(std::min(kName.size() + kNumbers, segment.payload.size()));
+            rest += stream.substr(at, segment.begin - at);
+            at = segment.end();
+        }
+    rest += stream.substr(at);
 }
 
 /// The first line of what OpenImageIO says, which may be many.
@@ -153,11 +134,9 @@ std::string jpeg_segment(unsigned char marker, std::string_view payload)
 
 bool decode_jpeg(std::string_view stream, const OIIO::ImageSpec* base, OIIO::ImageBuf& pixels, std::string& error)
 {
-    if (!has_sound_profile(stream)) {
-        error = "its ICC profile is damaged";
-        return false;
-    }
-    OIIO::Filesystem::IOMemReader memory(const_cast<char*>(stream.data()), stream.size());
+    std::string rest, profile;
+    take_profile(stream, rest, profile);
+    OIIO::Filesystem::IOMemReader memory(rest.data(), rest.size());
     const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open("picture.jpg", nullptr, &memory);
     if (!in) {
         error = first_line(OIIO::geterror());
@@ -174,6 +153,8 @@ bool decode_jpeg(std::string_view stream, const OIIO::ImageSpec* base, OIIO::Ima
         return false;
     }
     spec.set_format(OIIO::TypeFloat);
+    if (!profile.empty())
+        spec.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, int(profile.size())), profile.data());
     pixels.reset(spec);
     if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, pixels.localpixels())) {
         error = first_line(in->geterror());

@@ -39,8 +39,7 @@ constexpr std::size_t kMostPayload = 65533;
 std::string jpeg_segment(unsigned char marker, std::string_view payload);
 
 /// Pixels from a JPEG stream, as float, 0..1, with its metadata. False, with a line saying why, if it cannot be read, has
-/// more pixels than its bytes can hold, a damaged ICC profile, or is larger than `base`, where that is given. Memory is
-/// taken after that.
+/// more pixels than its bytes can hold, or is larger than `base`, where that is given. Memory is taken after that.
 bool decode_jpeg(std::string_view stream, const OIIO::ImageSpec* base, OIIO::ImageBuf& pixels, std::string& error);
 
 /// A JPEG stream from pixels of 1 or 3 channels, 0..1; `half_colour` halves the resolution of colour both ways.
