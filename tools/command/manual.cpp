@@ -35,10 +35,10 @@ std::string manual_of(const Command& command)
     for (const pimg::OptionInfo& key : command.keys())
         text += format(".TP\n\\fB{}\\fR=\\fI{}\\fR\n{} ({})\n", roff(key.key), roff(key.default_value), roff(key.help),
                        roff(values_of(key)));
-    if (command.presets)
+    if (command.presets)  // a space for each colon, since lines break at spaces
         for (const pimg::Preset& preset : command.presets())
             text += format(".TP\n{}\n{}: {}\n", roff(std::string("style=") + preset.name), roff(preset.summary),
-                           roff(preset.values));
+                           roff(OIIO::Strutil::replace(preset.values, ":", " ", true)));
     return text + ".RE\n";
 }
 
