@@ -292,7 +292,8 @@ def main():
         make(g)
     intro = ('Every figure and table of the paper, made by ./dev.sh gallery. Photographs: '
              + '; '.join('%s, %s' % (name, origin) for name, (_, _, origin) in PHOTOS.items())
-             + '. Fig. 12, the samples of a simpler initial mesh, is in docs/adaptive.md.')
+             + '. Fig. 12, the samples of a simpler initial mesh, is in docs/adaptive.md; paintings, drawings and mosaics '
+             'beside those of other programs are in docs/gallery/peers.md.')
     page.write_html(os.path.join(g.folder, 'index.html'), 'Gallery', intro, g.figures, g.folder)
     page.write_markdown(os.path.join(g.folder, 'README.md'), 'Gallery', intro, g.figures)
 
