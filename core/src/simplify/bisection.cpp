@@ -6,6 +6,7 @@
 #include <limits>
 
 #include <pimg/detail/parallel.h>
+#include <pimg/detail/stop.h>
 
 #include "sampling/guide_jump.h"
 #include "simplify/collapse_cost.h"
@@ -16,6 +17,8 @@ namespace pimg {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+constexpr std::size_t kRemovedBetweenStops = 1 << 14;  ///< at a tenth of a microsecond each
 
 /// Pixels between vertices that no bisection makes.
 constexpr int kSide = 64;
@@ -88,6 +91,8 @@ Bisection::Bisection(const Guide& guide, const BisectionLimits& limits, const Pa
     constexpr std::size_t kAhead = 16;
     std::array<Removal, kAhead> next;
     for (std::size_t i = 0; i < removed.size() + kAhead; ++i) {
+        if (i % kRemovedBetweenStops == 0)
+            stop_point();
         if (i >= kAhead)
             remove(next[i % kAhead], sequence.records[first + i - kAhead],
                    sequence.more.data() + (first + i - kAhead) * m_more_channels);
