@@ -16,11 +16,11 @@ namespace {
 using pimg::format;
 
 /// The visible part with a margin, which may come into view next.
-Region with_margin(const Region& visible, const OIIO::ImageSpec& spec)
+Region with_margin(const Region& visible, const DocumentState& document)
 {
     const int dx = (visible.x1 - visible.x0) / 4, dy = (visible.y1 - visible.y0) / 4;
-    return { std::max(0, visible.x0 - dx), std::max(0, visible.y0 - dy), std::min(spec.width, visible.x1 + dx),
-             std::min(spec.height, visible.y1 + dy) };
+    return { std::max(0, visible.x0 - dx), std::max(0, visible.y0 - dy), std::min(document.width, visible.x1 + dx),
+             std::min(document.height, visible.y1 + dy) };
 }
 
 int built_count(const DocumentState& document)
@@ -49,11 +49,24 @@ Studio::Studio(std::function<void()> changed) : m_changed(changed), m_document(s
 
 Studio::~Studio() = default;
 
+/// The rung for pictures that are to come quickly: the coarsest that has a pixel for each of the screen's. If its filters
+/// would take longer than a thirtieth of a second, its pixels may be half as large again.
+const Rung* Studio::quick_rung(const DocumentState& document, double scale) const
+{
+    constexpr double kSlow = 1.0 / 30.0, kCoarser = 1.5;
+    const double at_least = std::max(1.0, scale);
+    const Rung* rung = built_rung(document, at_least);
+    if (rung == nullptr || m_seconds_per_pixel * double(rung->pixels->spec().image_pixels()) < kSlow)
+        return rung;
+    return built_rung(document, kCoarser * at_least);
+}
+
 bool Studio::is_served(const Wanted& wanted, const DocumentState& document) const
 {
     const Wanted& before = m_request.wanted;
     return m_request.document.version == document.version && m_rungs_built == built_count(document)
-        && m_request.document.rungs.size() == document.rungs.size() && m_request.region.contains(wanted.visible)
+        && m_request.document.rungs.size() == document.rungs.size()
+        && m_request.document.rungs[0].pixels == document.rungs[0].pixels && m_request.region.contains(wanted.visible)
         && reduction(before.scale, 1) == reduction(wanted.scale, 1) && before.stack == wanted.stack
         && before.dragging == wanted.dragging && (before.source || !wanted.source) && (before.scopes || !wanted.scopes);
 }
@@ -63,21 +76,20 @@ void Studio::want(const Wanted& asked)
     const DocumentState document = m_document.state();
     if (!document.has_picture())
         return;
-    const OIIO::ImageSpec& spec = document.rungs[0].pixels->spec();
     Wanted wanted = asked;
     bool changes = false;
     if (wanted.visible.empty())
-        wanted.visible = { 0, 0, spec.width, spec.height };
+        wanted.visible = { 0, 0, document.width, document.height };
     {
         const std::lock_guard<std::mutex> lock(m_mutex);
         if (is_served(wanted, document))
             return;
         changes = m_request.wanted.stack != wanted.stack || m_request.document.version != document.version;
-        m_request = { wanted, document, with_margin(wanted.visible, spec), m_request.serial + 1 };
+        m_request = { wanted, document, with_margin(wanted.visible, document), m_request.serial + 1 };
         m_rungs_built = built_count(document);
     }
     const Rung* finest = built_rung(document, 0.0);
-    const Rung* fitting = built_rung(document, std::max(1.0, wanted.scale));
+    const Rung* fitting = quick_rung(document, wanted.scale);
     // A smaller copy comes first if there is one and the finest takes long, that is with filters.
     const bool both = finest != fitting && filters(wanted.stack);
     if (wanted.dragging || both)
@@ -117,7 +129,7 @@ void Studio::make(const Request& request, Renderer& renderer, bool quick, const 
     const auto begun = std::chrono::steady_clock::now();
     const bool filtered = filters(request.wanted.stack);
     const double scale = std::max(1.0, request.wanted.scale);
-    const Rung* rung = built_rung(request.document, quick ? scale : 0.0);
+    const Rung* rung = quick ? quick_rung(request.document, scale) : built_rung(request.document, 0.0);
     FilterStack stack = request.wanted.stack;
     if (rung == nullptr || !filtered) {
         rung = &request.document.rungs[0];
@@ -136,6 +148,9 @@ void Studio::make(const Request& request, Renderer& renderer, bool quick, const 
         m_changed();
         return;
     }
+    constexpr double kMade = 1e-3;  // in less time results are found, not made
+    if (filtered && shown->result.seconds > kMade)
+        m_seconds_per_pixel = shown->result.seconds / double(rung->pixels->spec().image_pixels());
     const int reduce = reduction(scale, rung->factor);
     shown->frame = std::make_shared<Frame>(make_frame(shown->result, request.region, reduce));
     shown->source.pixels = rung->pixels;
@@ -149,7 +164,17 @@ void Studio::make(const Request& request, Renderer& renderer, bool quick, const 
     if (rung->image)
         add_overlays(request, *rung, *shown);
     shown->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    count_memory(request, *shown, quick);
     publish(shown);
+}
+
+void Studio::count_memory(const Request& request, const Shown& shown, bool quick)
+{
+    const auto bytes_of = [](const std::shared_ptr<const Frame>& frame) {
+        return frame ? frame->rgb.size() * sizeof(float) : 0;
+    };
+    m_document_bytes = request.document.memory() + bytes_of(shown.frame) + bytes_of(shown.source_frame);
+    m_renderer_bytes[quick ? 1 : 0] = (quick ? m_quick_renderer : m_full_renderer).memory();
 }
 
 void Studio::add_source(const Request& request, Shown& shown) const
@@ -226,7 +251,8 @@ bool Studio::settled() const
         return false;
     if (!document.has_picture())
         return true;
-    const bool current = m_request.document.version == document.version && m_rungs_built == built_count(document);
+    const bool current = m_request.document.version == document.version && m_rungs_built == built_count(document)
+        && m_request.document.rungs[0].pixels == document.rungs[0].pixels;
     const bool made = m_shown && m_shown->serial == m_request.serial && m_shown->final;
     const bool failed = !m_error.empty() && m_error_serial == m_request.serial;
     return current && (made || failed);
@@ -243,7 +269,7 @@ void Studio::save(const FilterStack& stack, const std::string& filename)
         std::string summary, error;
         bool saved = false;
         try {
-            if (!document.has_picture() || !document.rungs[0].image)
+            if (!document.is_read() || !document.rungs[0].image)
                 error = "the picture is still being built: expected its end before saving";
             else
                 saved = pimgview::save(document, stack, filename, stop, summary, error);

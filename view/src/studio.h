@@ -3,6 +3,7 @@
 // No function here waits for a picture; threads make them.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -72,6 +73,9 @@ public:
     void save(const FilterStack& stack, const std::string& filename);
     SaveState saving() const;
 
+    /// Bytes of the document, of what filters remember and of the pictures that are shown, when last counted.
+    std::size_t memory() const { return m_document_bytes + m_renderer_bytes[0] + m_renderer_bytes[1]; }
+
     /// Asks every thread to stop. False if one has not done so after a fifth of a second: reading runs to its end.
     bool stop();
 
@@ -85,12 +89,15 @@ private:
 
     void post(Worker& worker, Renderer& renderer, bool quick, bool at_once);
     void make(const Request& request, Renderer& renderer, bool quick, const std::atomic<bool>& stop);
+    void count_memory(const Request& request, const Shown& shown, bool quick);
     void add_source(const Request& request, Shown& shown) const;
     void add_overlays(const Request& request, const Rung& rung, Shown& shown) const;
     void publish(std::shared_ptr<Shown> shown);
+    const Rung* quick_rung(const DocumentState& document, double scale) const;
     bool is_served(const Wanted& wanted, const DocumentState& document) const;
 
     std::function<void()> m_changed;
+    std::atomic<std::size_t> m_document_bytes { 0 }, m_renderer_bytes[2] = { { 0 }, { 0 } };
     mutable std::mutex m_mutex;
     std::shared_ptr<const Shown> m_shown;
     std::string m_error;
@@ -98,6 +105,7 @@ private:
     SaveState m_save;
     Request m_request;
     int m_rungs_built = 0;
+    std::atomic<double> m_seconds_per_pixel { 0.0 };  ///< that the filters took last; 0: not known
     Document m_document;
     Renderer m_quick_renderer, m_full_renderer;
     Worker m_quick, m_full, m_saver;  ///< last, so that they end before what they work on is destroyed

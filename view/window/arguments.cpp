@@ -34,7 +34,25 @@ bool take_script(const std::string& text, Arguments& arguments, std::string& err
         error = format("cannot read \"{}\"", text.substr(1));
         return false;
     }
-    return split_words(line, words, error) && parse_script(words, arguments.script, error);
+    Script script;
+    if (!split_words(line, words, error) || !parse_script(words, script, error))
+        return false;
+    if (arguments.screenshot.empty())
+        arguments.script = std::move(script);
+    else
+        arguments.more.push_back({ std::move(script), "" });
+    return true;
+}
+
+/// A screenshot belongs to the script before it.
+bool take_screenshot(const std::string& name, Arguments& arguments, std::string& error)
+{
+    std::string& screenshot = arguments.more.empty() ? arguments.screenshot : arguments.more.back().screenshot;
+    if (!screenshot.empty())
+        error = "expected --script before the next one";
+    else
+        screenshot = name;
+    return error.empty() && !name.empty();
 }
 
 bool take_number(const std::string& text, int least, int& number, std::string& error)
@@ -64,10 +82,8 @@ const std::vector<Word>& word_table()
     static const std::vector<Word> table = {
         { "--script", "TEXT", "replays a command line of pimgtool, with --view for what is looked at; @FILE: a file's",
           take_script },
-        { "--screenshot", "FILE", "writes what the window shows when all is done, and ends",
-          [](const S& text, A& a, S&) {
-              return !(a.screenshot = text).empty();
-          } },
+        { "--screenshot", "FILE", "writes what the window shows when all is done; then the next --script, or the end",
+          take_screenshot },
         { "--size", "WxH", "size of the window", take_size },
         { "--measure", "OPTION", "drags that option of the first filter that has it, and prints frames per second",
           [](const S& text, A& a, S&) {
@@ -134,6 +150,10 @@ bool parse_arguments(const std::vector<std::string>& words, Arguments& arguments
             return false;
         }
     }
+    if (!arguments.more.empty() && arguments.more.back().screenshot.empty()) {
+        error = "--script: expected --screenshot after the last one";
+        return false;
+    }
     arguments.files.insert(arguments.files.end(), arguments.script.files.begin(), arguments.script.files.end());
     return true;
 }
@@ -148,7 +168,7 @@ std::string help_text()
         text += format("  {:<22}{}\n", format("{} {}", word.name, word.operand), word.help);
     text += "\nKeys of --view in a script, as in --view:zoom=1:show=split\n" + look_text() + "\nKeys in the window\n";
     for (const Key& key : key_table())
-        text += format("    {:<14}{}\n", key.name, key.help);
+        text += *key.name == '\0' ? "" : format("    {:<14}{}\n", key.name, key.help);
     return text
         + "\nThe mouse drags the picture; the wheel zooms. Sliders: a double click brings the default, Ctrl+click "
           "types.\n";
@@ -176,7 +196,7 @@ std::string manual_page()
         page += format(".TP\n\\fB{}\\fR\n{}\n", roff(option.key), roff(option.help));
     page += ".SH KEYS IN THE WINDOW\n";
     for (const Key& key : key_table())
-        page += format(".TP\n\\fB{}\\fR\n{}\n", roff(key.name), roff(key.help));
+        page += *key.name == '\0' ? "" : format(".TP\n\\fB{}\\fR\n{}\n", roff(key.name), roff(key.help));
     return page + ".SH SEE ALSO\n.BR pimgtool (1)\n";
 }
 

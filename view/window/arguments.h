@@ -9,10 +9,17 @@
 
 namespace pimgview {
 
+/// One state of the window that is to be written to a file.
+struct Shot {
+    Script script;
+    std::string screenshot;  ///< file it is written to; empty: none
+};
+
 struct Arguments {
     std::vector<std::string> files;
-    Script script;
-    std::string screenshot;          ///< file it is written to; empty: none
+    Script script;                   ///< of the first state
+    std::string screenshot;          ///< of the first state; empty: none
+    std::vector<Shot> more;          ///< the states after it
     int width = 1280, height = 800;  ///< of the window
     bool sized = false;              ///< --size was given
     std::string measured;            ///< option that is dragged for --measure, such as beta; empty: none

@@ -12,6 +12,9 @@ const std::vector<Key>& key_table()
         { Action::actual_size, GLFW_KEY_1, false, false, "1", "one screen pixel to a pixel" },
         { Action::zoom_in, GLFW_KEY_EQUAL, false, false, "+", "closer; so does the wheel, about the pointer" },
         { Action::zoom_out, GLFW_KEY_MINUS, false, false, "-", "farther" },
+        { Action::zoom_in, GLFW_KEY_EQUAL, false, true, "", "" },  // + on keyboards where that is above =
+        { Action::zoom_in, GLFW_KEY_KP_ADD, false, false, "", "" },
+        { Action::zoom_out, GLFW_KEY_KP_SUBTRACT, false, false, "", "" },
         { Action::brighter, GLFW_KEY_E, false, false, "E", "half a stop brighter" },
         { Action::darker, GLFW_KEY_E, false, true, "Shift+E", "half a stop darker" },
         { Action::more_gamma, GLFW_KEY_G, false, false, "G", "lifts the shadows" },

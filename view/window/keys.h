@@ -40,9 +40,9 @@ enum class Action {
 
 struct Key {
     Action action;
-    int code;  ///< as GLFW numbers keys, which for letters are their capitals
+    int code;  ///< as GLFW numbers keys; those with letters are the capitals on them
     bool control, shift;
-    const char* name;  ///< "Ctrl+Z"
+    const char* name;  ///< "Ctrl+Z"; empty for a second key of an action, which no list shows
     const char* help;
 };
 

@@ -40,11 +40,11 @@ void tooltip(const OptionInfo& option)
     ImGui::SetTooltip("%s", text.c_str());
 }
 
-/// The shortest text of about four digits.
+/// Four digits of what was dragged, and more of what was typed.
 std::string number_text(double number, bool whole)
 {
     char text[32];
-    std::snprintf(text, sizeof text, whole ? "%.0f" : "%.4g", number);
+    std::snprintf(text, sizeof text, whole ? "%.0f" : ImGui::GetIO().WantTextInput ? "%.9g" : "%.4g", number);
     return text;
 }
 
@@ -108,10 +108,15 @@ bool option_widget(const OptionInfo& option, const std::string& value, std::stri
         touched = text_field(option, value, changed);
     tooltip(option);
     const bool number = option.type == "int" || option.type == "float";
-    const bool asked = ImGui::IsItemHovered()
-        && (ImGui::IsMouseClicked(ImGuiMouseButton_Middle)
-            || (number && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)));
-    if (asked) {
+    const bool twice = number && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+    // A slider that was reset would follow the pointer again while the button is still down.
+    static ImGuiID held = 0;
+    if (!ImGui::IsMouseDown(ImGuiMouseButton_Left))
+        held = 0;
+    if (held == ImGui::GetID(option.key.c_str()))
+        return false;
+    if (ImGui::IsItemHovered() && (twice || ImGui::IsMouseClicked(ImGuiMouseButton_Middle))) {
+        held = twice ? ImGui::GetID(option.key.c_str()) : 0;
         changed = option.default_value;
         touched = true;
     }

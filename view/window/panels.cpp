@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <utility>
 
 #include <imgui.h>
 #include <imgui_stdlib.h>
@@ -22,6 +24,8 @@ namespace {
 
 using pimg::format;
 using pimg::OptionInfo;
+
+constexpr double kBaseVertices = 70.0;  // about those of a base mesh, which has 128 faces
 
 /// A header whose contents are drawn; open at first if `open`.
 bool section(const char* title, bool open)
@@ -85,10 +89,10 @@ void Panels::draw(Workbench& bench, const ViewInfo& info, float scale)
         ImGui::Begin("Panels", nullptr,
                      ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove);
         ImGui::PushItemWidth(float(kWidth) * 0.5f * scale);
+        scopes(bench);
         files(bench);
         filters(bench);
         look(bench);
-        scopes(bench);
         presets(bench);
         save(bench);
         ImGui::PopItemWidth();
@@ -188,6 +192,7 @@ void Panels::filters(Workbench& bench)
             break;
         }
     }
+    move_filter(bench.stack.items);
     if (ImGui::BeginCombo("##add", "Add a filter ...")) {
         for (const pimg::Filter& row : pimg::filter_table()) {
             if (ImGui::Selectable(row.name))
@@ -207,6 +212,38 @@ void Panels::filters(Workbench& bench)
     }
 }
 
+void Panels::move_filter(std::vector<StackItem>& items)
+{
+    const auto [from, to] = std::exchange(m_moved, { 0, 0 });
+    if (from >= items.size() || to >= items.size())
+        return;
+    const auto begin = items.begin();
+    if (from < to)
+        std::rotate(begin + std::ptrdiff_t(from), begin + std::ptrdiff_t(from) + 1, begin + std::ptrdiff_t(to) + 1);
+    else
+        std::rotate(begin + std::ptrdiff_t(to), begin + std::ptrdiff_t(from), begin + std::ptrdiff_t(from) + 1);
+}
+
+/// The title of a filter that was just drawn can be dragged to that of another, whose place it takes.
+void Panels::drag_filter(Workbench& bench, std::size_t index)
+{
+    constexpr const char* kKind = "filter";
+    std::vector<StackItem>& items = bench.stack.items;
+    if (ImGui::BeginDragDropSource()) {
+        ImGui::SetDragDropPayload(kKind, &index, sizeof index);
+        ImGui::TextUnformatted(items[index].filter->name);
+        ImGui::EndDragDropSource();
+    }
+    if (!ImGui::BeginDragDropTarget())
+        return;
+    if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload(kKind)) {
+        std::size_t from = 0;
+        std::memcpy(&from, payload->Data, sizeof from);
+        m_moved = { from, index };
+    }
+    ImGui::EndDragDropTarget();
+}
+
 bool Panels::filter(Workbench& bench, std::size_t index)
 {
     StackItem& item = bench.stack.items[index];
@@ -218,16 +255,8 @@ bool Panels::filter(Workbench& bench, std::size_t index)
     ImGui::SameLine();
     const bool open = ImGui::TreeNodeEx(item.filter->name, ImGuiTreeNodeFlags_DefaultOpen | ImGuiTreeNodeFlags_Framed);
     if (ImGui::IsItemHovered() && !ImGui::IsItemActive())
-        ImGui::SetTooltip("%s\ndrag it to another place in the order", item.filter->summary);
-    // Dragged beyond its own line, a filter changes places with its neighbour.
-    if (ImGui::IsItemActive() && !ImGui::IsItemHovered()) {
-        const float drag = ImGui::GetMouseDragDelta(0).y;
-        const std::size_t other = drag < 0 ? index - 1 : index + 1;
-        if (drag != 0.0f && other < bench.stack.items.size()) {
-            std::swap(bench.stack.items[index], bench.stack.items[other]);
-            ImGui::ResetMouseDragDelta();
-        }
-    }
+        ImGui::SetTooltip("%s\ndrag it onto another filter, whose place it takes", item.filter->summary);
+    drag_filter(bench, index);
     if (!open)
         return removed;
     const OptionInfo* which = nullptr;
@@ -253,8 +282,7 @@ void Panels::level_slider(Workbench& bench)
         return item.filter == level && item.on;
     };
     const auto found = std::find_if(bench.stack.items.begin(), bench.stack.items.end(), is_level);
-    const OIIO::ImageSpec& spec = document.rungs[0].pixels->spec();
-    const double low = 70.0, high = double(spec.image_pixels());  // the base mesh has 128 faces
+    const double low = kBaseVertices, high = double(document.width) * document.height;
     double vertices = high;
     const auto infos = level->options();
     const auto option =
@@ -272,8 +300,8 @@ void Panels::level_slider(Workbench& bench)
         return;
     }
     if (found == bench.stack.items.end())
-        bench.stack.items.insert(bench.stack.items.begin(), { level, {}, true });
-    StackItem& item = found == bench.stack.items.end() ? bench.stack.items.front() : *found;
+        bench.stack.items.push_back({ level, {}, true });  // last, so that nothing follows that must be done again
+    StackItem& item = found == bench.stack.items.end() ? bench.stack.items.back() : *found;
     set_value(item, *option, format("{:.0f}", vertices));
 }
 
@@ -296,8 +324,49 @@ void Panels::look(Workbench& bench)
                 }
         ImGui::EndCombo();
     }
-    if (option_widgets(infos, texts_of(bench.look), { "x", "y", "display", "transform" }, &which, value))
+    const DocumentState document = bench.studio.document().state();
+    double mesh = bench.look.mesh;
+    const double none = 0.0, all = std::max(kBaseVertices, double(document.width) * document.height);
+    if (ImGui::SliderScalar("mesh (vertices)", ImGuiDataType_Double, &mesh, &none, &all, mesh < 1 ? "none" : "%.0f",
+                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat))
+        bench.look.mesh = int(std::clamp(mesh, 0.0, 2147483647.0));
+    if (option_widgets(infos, texts_of(bench.look), { "x", "y", "display", "transform", "mesh" }, &which, value))
         pimg::set_option(bench.look, which->key, value.empty() ? "0" : value, error);
+}
+
+/// Both histograms in one plot, the source filled and the result as a line, over a scale in stops.
+void Panels::histogram(const Shown& shown, float width)
+{
+    constexpr float kHeight = 80.0f;
+    constexpr int kTick = 4;  // stops
+    const auto& result = shown.histogram.bins;
+    const auto& source = shown.source_histogram.bins;
+    const float most = std::max(
+        { 1e-6f, *std::max_element(result.begin(), result.end()), *std::max_element(source.begin(), source.end()) });
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float bottom = corner.y + kHeight, cell = width / float(Histogram::kBins);
+    const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text), faint = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    draw->AddRectFilled(corner, { corner.x + width, bottom }, ImGui::GetColorU32(ImGuiCol_FrameBg));
+    for (int stop = Histogram::kLeast; stop <= Histogram::kMost; stop += kTick) {
+        const float x = corner.x + float((stop - Histogram::kLeast) * Histogram::kBinsPerStop) * cell;
+        draw->AddLine({ x, corner.y }, { x, bottom }, stop == 0 ? ink : ImGui::GetColorU32(ImGuiCol_Border));
+        draw->AddText({ std::min(x + 2, corner.x + width - 24), bottom }, faint,
+                      (stop == 0 ? std::string("0") : format("{:+d}", stop)).c_str());
+    }
+    std::vector<ImVec2> line;
+    for (int i = 0; i < Histogram::kBins; ++i) {
+        const auto height = [&](float share) {
+            return bottom - kHeight * share / most;
+        };
+        const float x = corner.x + float(i) * cell;
+        draw->AddRectFilled({ x, height(source[std::size_t(i)]) }, { x + cell, bottom }, faint);
+        line.push_back({ x, height(result[std::size_t(i)]) });
+        line.push_back({ x + cell, height(result[std::size_t(i)]) });
+    }
+    draw->AddPolyline(line.data(), int(line.size()), ImGui::GetColorU32(ImGuiCol_PlotHistogram), 0, 1.5f);
+    ImGui::Dummy({ width, kHeight + ImGui::GetTextLineHeight() });
+    ImGui::TextDisabled("stops around 1: source filled, result as a line");
 }
 
 void Panels::scopes(const Workbench& bench)
@@ -306,15 +375,8 @@ void Panels::scopes(const Workbench& bench)
     if (!(bench.look.histogram || bench.look.waveform) || !shown || !shown->has_scopes)
         return;
     const float width = ImGui::GetContentRegionAvail().x;
-    if (bench.look.histogram) {
-        for (const auto& [name, histogram] :
-             { std::pair("result", &shown->histogram), std::pair("source", &shown->source_histogram) }) {
-            const float most = *std::max_element(histogram->bins.begin(), histogram->bins.end());
-            ImGui::PlotHistogram("##histogram", histogram->bins.data(), Histogram::kBins, 0, name, 0.0f, most,
-                                 { width, 70 });
-        }
-        ImGui::Text("%d to %+d stops around 1", Histogram::kLeast, Histogram::kMost);
-    }
+    if (bench.look.histogram)
+        histogram(*shown, width);
     if (!bench.look.waveform)
         return;
     const Waveform& waveform = shown->waveform;
@@ -338,6 +400,9 @@ void Panels::presets(Workbench& bench)
 {
     if (!section("Presets", false))
         return;
+    const auto last = bench.settings.find("last");
+    if (last != bench.settings.end() && ImGui::Selectable("(as last time)"))
+        bench.apply(last->second);
     for (const std::string& name : preset_names())
         if (ImGui::Selectable(name.c_str()))
             bench.apply(read_preset(name));
@@ -357,11 +422,11 @@ void Panels::save(Workbench& bench)
     bench.saving = false;
     if (!section("Save", false))
         return;
-    ImGui::InputTextWithHint("##file", "out.png, out.exr, out.pimg ...", &bench.save_name);
+    ImGui::InputTextWithHint("##file", "out.png, out.exr, out.pimg, out.svg ...", &bench.save_name);
     ImGui::SameLine();
     if (ImGui::Button("Save") && !bench.save_name.empty() && !bench.studio.saving().busy)
         bench.studio.save(bench.stack, bench.save_name);
-    ImGui::TextWrapped("Strokes as SVG: the option strokes of paint and ink.");
+    ImGui::TextWrapped("The extension chooses the format: of a picture, .pimg, or .svg and .json for strokes.");
 }
 
 void Panels::status(Workbench& bench, const ViewInfo& info, float scale)
@@ -399,7 +464,7 @@ void Panels::status(Workbench& bench, const ViewInfo& info, float scale)
                 format("({}, {})  source {} = {}   result {} = {}, codes {} {} {}   ", info.x, info.y,
                        samples_text(info.source), stops(info.source.luminance), samples_text(info.result),
                        stops(info.result.luminance), info.result.codes[0], info.result.codes[1], info.result.codes[2]);
-        text += format("{:.0f} %   {}", 100.0 * info.zoom, megabytes(document.memory() + info.texture_memory));
+        text += format("{:.0f} %   {}", 100.0 * info.zoom, megabytes(bench.studio.memory() + info.texture_memory));
         ImGui::TextUnformatted(text.c_str());
     }
     ImGui::End();
@@ -411,6 +476,8 @@ void Panels::sheet(Workbench& bench)
                             { 0.5f, 0.5f });
     ImGui::Begin("Keys", &bench.sheet, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize);
     for (const Key& key : key_table()) {
+        if (*key.name == '\0')
+            continue;
         ImGui::TextUnformatted(key.name);
         ImGui::SameLine(120);
         ImGui::TextUnformatted(key.help);

@@ -2,6 +2,10 @@
 // The panels beside the picture.
 #pragma once
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "gl/colour_shader.h"
 #include "workbench.h"
 
@@ -29,9 +33,12 @@ private:
     void browser(Workbench& bench);
     void filters(Workbench& bench);
     bool filter(Workbench& bench, std::size_t index);
+    void drag_filter(Workbench& bench, std::size_t index);
+    void move_filter(std::vector<StackItem>& items);
     void level_slider(Workbench& bench);
     void look(Workbench& bench);
-    void scopes(const Workbench& bench);
+    static void scopes(const Workbench& bench);
+    static void histogram(const Shown& shown, float width);
     void presets(Workbench& bench);
     void save(Workbench& bench);
     void status(Workbench& bench, const ViewInfo& info, float scale);
@@ -39,6 +46,7 @@ private:
 
     std::string m_folder, m_preset, m_pasted;
     std::vector<std::string> m_entries;
+    std::pair<std::size_t, std::size_t> m_moved;  ///< a filter that was dropped: from, to; the same twice: none
     const DisplayList m_displays = display_list();
 };
 

@@ -104,22 +104,41 @@ void PictureView::draw(Workbench& bench, int buffer_width, int buffer_height)
         m_drawn = shown;
         ++m_pictures;
     }
-    m_info.texture_memory = m_texture.memory();
-    const Light source = shown->source_frame ? shown->source_frame->light : shown->frame->light;
+    m_info.texture_memory = m_texture.memory() + m_canvas.memory();
+    const Painted wanted { shown,        bench.look,    m_area.x,     m_area.y,
+                           m_area.width, m_area.height, buffer_width, buffer_height };
+    if (!(wanted == m_painted)) {
+        m_painted = {};
+        const bool kept = m_canvas.begin(buffer_width, buffer_height);
+        glClear(GL_COLOR_BUFFER_BIT);
+        const bool painted = paint(bench, *shown, buffer_width, buffer_height);
+        if (!kept)
+            return;
+        Canvas::end();
+        if (!painted)
+            return;
+        m_painted = wanted;
+    }
+    m_canvas.show(m_area.x, buffer_height - m_area.y - m_area.height, m_area.width, m_area.height);
+}
+
+bool PictureView::paint(Workbench& bench, const Shown& shown, int buffer_width, int buffer_height)
+{
+    const Light source = shown.source_frame ? shown.source_frame->light : shown.frame->light;
     LookOptions look = bench.look;
-    if (!shown->source_frame)
+    if (!shown.source_frame)
         look.show = "result";  // for the frame until there is one
     std::string error;
-    if (!m_shader.use(shown->frame->light, source, look, error)) {
+    if (!m_shader.use(shown.frame->light, source, look, error)) {
         bench.message = error;
         bench.look.display.clear();
         bench.look.transform.clear();
-        return;
+        return false;
     }
     m_shader.set(look, float(m_area.x + double(look.split) * m_area.width));
     const double zoom = m_area.zoom(look);
     const Placement placement { m_area.left(look), m_area.top(look), zoom, buffer_width, buffer_height };
-    const Region& region = shown->frame->region;
+    const Region& region = shown.frame->region;
     // Texels at the right and lower edges may reach beyond the picture.
     const int right = std::min(m_area.x + m_area.width, int(std::ceil(placement.left + m_area.picture_width * zoom)));
     const int bottom = std::min(m_area.y + m_area.height, int(std::ceil(placement.top + m_area.picture_height * zoom)));
@@ -131,6 +150,7 @@ void PictureView::draw(Workbench& bench, int buffer_width, int buffer_height)
     m_texture.draw(placement);
     glDisable(GL_SCISSOR_TEST);
     glUseProgram(0);
+    return true;
 }
 
 }  // namespace pimgview

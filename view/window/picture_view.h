@@ -3,6 +3,7 @@
 #pragma once
 
 #include "display/viewport.h"
+#include "gl/canvas.h"
 #include "gl/colour_shader.h"
 #include "gl/tiled_texture.h"
 #include "panels.h"
@@ -21,6 +22,7 @@ public:
     /// What a key does to the place in the picture.
     void act(Workbench& bench, Action action) const;
 
+    /// Draws the picture into the frame buffer, which has been cleared. What would look as it did before is copied.
     void draw(Workbench& bench, int buffer_width, int buffer_height);
 
     /// Mesh and dual piece, into the background of what Dear ImGui draws.
@@ -35,11 +37,27 @@ public:
     const Shown* drawn() const { return m_drawn.get(); }
 
 private:
+    /// All that decides how the canvas looks.
+    struct Painted {
+        std::shared_ptr<const Shown> shown;
+        LookOptions look;
+        int x = 0, y = 0, width = 0, height = 0, buffer_width = 0, buffer_height = 0;
+
+        friend bool operator==(const Painted& a, const Painted& b)
+        {
+            return a.shown == b.shown && a.look == b.look && a.x == b.x && a.y == b.y && a.width == b.width
+                && a.height == b.height && a.buffer_width == b.buffer_width && a.buffer_height == b.buffer_height;
+        }
+    };
+
+    bool paint(Workbench& bench, const Shown& shown, int buffer_width, int buffer_height);
     void look_up_pixel(const Workbench& bench, double at_x, double at_y);
 
     Viewport m_area;
     TiledTexture m_texture;
     ColourShader m_shader;
+    Canvas m_canvas;
+    Painted m_painted;
     std::shared_ptr<const Shown> m_drawn;
     ViewInfo m_info;
     bool m_panning = false, m_splitting = false;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
@@ -15,6 +16,7 @@
 
 #include <pimg/detail/format.h>
 
+#include "process_time.h"
 #include "session/output.h"
 
 namespace pimgview {
@@ -48,7 +50,7 @@ Window::Window(const Arguments& arguments) : m_arguments(arguments), m_random(st
 
 Window::~Window()
 {
-    m_bench.reset();
+    m_bench.reset();  // first: its threads post events
     m_view.reset();
     if (m_imgui) {
         ImGui_ImplOpenGL3_Shutdown();
@@ -61,24 +63,63 @@ Window::~Window()
         glfwTerminate();
 }
 
+/// Where the window was when the program last ended, unless the command line says its size. False if it is not known, or is
+/// on no monitor any more.
+bool Window::find_place(int& left, int& top)
+{
+    int width = 0, height = 0, count = 0;
+    const auto found = m_bench->settings.find("window");
+    if (m_arguments.sized || found == m_bench->settings.end()
+        || std::sscanf(found->second.c_str(), "%dx%d%d%d", &width, &height, &left, &top) != 4 || width < 64
+        || height < 64 || width > 16384 || height > 16384)
+        return false;
+    m_arguments.width = width;
+    m_arguments.height = height;
+    GLFWmonitor** const monitors = glfwGetMonitors(&count);
+    for (int i = 0; i < count; ++i) {
+        int x = 0, y = 0, w = 0, h = 0;
+        glfwGetMonitorWorkarea(monitors[i], &x, &y, &w, &h);
+        if (left + width / 2 >= x && left + width / 2 < x + w && top >= y && top < y + h)
+            return true;
+    }
+    return false;
+}
+
+void Window::remember_place()
+{
+    int width = 0, height = 0, left = 0, top = 0;
+    glfwGetWindowSize(m_window, &width, &height);
+    glfwGetWindowPos(m_window, &left, &top);
+    if (glfwGetWindowAttrib(m_window, GLFW_ICONIFIED) == GLFW_FALSE)
+        m_bench->settings["window"] = format("{}x{}{:+d}{:+d}", width, height, left, top);
+}
+
 bool Window::open(std::string& error)
 {
-    m_opened = 0.0;
+    // First, so that the file is read while the driver makes a window.
+    m_bench = std::make_unique<Workbench>(m_arguments, [this] {
+        if (m_glfw)
+            glfwPostEmptyEvent();
+    });
     if (!glfwInit()) {
         error = format("no display: {}", glfw_error());
         return false;
     }
     m_glfw = true;
-    glfwSetTime(0.0);
+    glfwSetTime(seconds_since_start());
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 2);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, m_arguments.sized ? GLFW_FALSE : GLFW_TRUE);
+    int left = 0, top = 0;
+    const bool placed = find_place(left, top);
     m_window = glfwCreateWindow(m_arguments.width, m_arguments.height, "pimgview", nullptr, nullptr);
     if (m_window == nullptr) {
         error = format("no window with OpenGL 3.2: {}", glfw_error());
         return false;
     }
+    if (placed)
+        glfwSetWindowPos(m_window, left, top);
     glfwMakeContextCurrent(m_window);
     const bool timed =
         !m_arguments.measured.empty() || !m_arguments.screenshot.empty() || m_arguments.random_events > 0;
@@ -90,6 +131,20 @@ bool Window::open(std::string& error)
     }
     glfwSetWindowUserPointer(m_window, this);
     glfwSetDropCallback(m_window, on_drop);
+    begin_panels();
+    m_view = std::make_unique<PictureView>(m_arguments.tile);
+    return true;
+}
+
+void Window::on_drop(GLFWwindow* window, int count, const char** names)
+{
+    auto* self = static_cast<Window*>(glfwGetWindowUserPointer(window));
+    self->m_dropped.assign(names, names + count);
+}
+
+/// Dear ImGui, with letters of the size that the screen asks for.
+void Window::begin_panels()
+{
     ImGui::CreateContext();
     m_imgui = true;
     ImGuiIO& io = ImGui::GetIO();
@@ -101,16 +156,22 @@ bool Window::open(std::string& error)
     io.Fonts->AddFontDefault(&font);
     ImGui::GetStyle().ScaleAllSizes(m_scale);
     ImGui_ImplGlfw_InitForOpenGL(m_window, true);
+    glfwSetKeyCallback(m_window, on_key);
     ImGui_ImplOpenGL3_Init("#version 150");
-    m_bench = std::make_unique<Workbench>(m_arguments, [] { glfwPostEmptyEvent(); });
-    m_view = std::make_unique<PictureView>(m_arguments.tile);
-    return true;
 }
 
-void Window::on_drop(GLFWwindow* window, int count, const char** names)
+/// Keys wait here for the next frame. Dear ImGui only knows which are down, and misses those that are up again by then.
+void Window::on_key(GLFWwindow* window, int code, int scan, int action, int modifiers)
 {
+    ImGui_ImplGlfw_KeyCallback(window, code, scan, action, modifiers);
+    if (action == GLFW_RELEASE)
+        return;
+    // GLFW numbers keys by their place on a US keyboard; what counts is what is printed on them.
+    const char* name = code >= GLFW_KEY_A && code <= GLFW_KEY_Z ? glfwGetKeyName(code, scan) : nullptr;
+    if (name != nullptr && name[0] >= 'a' && name[0] <= 'z' && name[1] == '\0')
+        code = name[0] - 'a' + GLFW_KEY_A;
     auto* self = static_cast<Window*>(glfwGetWindowUserPointer(window));
-    self->m_dropped.assign(names, names + count);
+    self->m_pressed.push_back({ code, (modifiers & GLFW_MOD_CONTROL) != 0, (modifiers & GLFW_MOD_SHIFT) != 0 });
 }
 
 Viewport Window::area() const
@@ -124,22 +185,23 @@ Viewport Window::area() const
     area.height = std::max(1, panels ? height - int(Panels::kStatusHeight * m_scale) : height);
     const DocumentState document = m_bench->studio.document().state();
     if (document.has_picture()) {
-        area.picture_width = document.rungs[0].pixels->spec().width;
-        area.picture_height = document.rungs[0].pixels->spec().height;
+        area.picture_width = document.width;
+        area.picture_height = document.height;
     }
     return area;
 }
 
 void Window::keys()
 {
-    const ImGuiIO& io = ImGui::GetIO();
-    if (io.WantTextInput)
+    const std::vector<Pressed> pressed_keys = std::exchange(m_pressed, {});
+    if (ImGui::GetIO().WantTextInput)
         return;
-    for (const Key& key : key_table())
-        if (ImGui::IsKeyPressed(key.code) && key.control == io.KeyCtrl && key.shift == io.KeyShift) {
-            m_bench->act(key.action);
-            m_view->act(*m_bench, key.action);
-        }
+    for (const Pressed& pressed : pressed_keys)
+        for (const Key& key : key_table())
+            if (key.code == pressed.code && key.control == pressed.control && key.shift == pressed.shift) {
+                m_bench->act(key.action);
+                m_view->act(*m_bench, key.action);
+            }
 }
 
 void Window::drop_in()
@@ -148,6 +210,15 @@ void Window::drop_in()
         return;
     m_bench->open(m_dropped);
     m_dropped.clear();
+}
+
+/// The command line is the title, so that it is seen without panels, too.
+void Window::show_title()
+{
+    const std::string line = m_bench->index >= 0 ? m_bench->line() + " - pimgview" : "pimgview";
+    if (line != m_title)
+        glfwSetWindowTitle(m_window, line.c_str());
+    m_title = line;
 }
 
 void Window::draw_frame()
@@ -174,6 +245,7 @@ void Window::draw_frame()
     m_bench->update(view.visible(m_bench->look), 1.0 / view.zoom(m_bench->look), held);
     if (!held && !m_view->dragging())
         m_bench->record();
+    show_title();
     ImGui::Render();
     glViewport(0, 0, width, height);
     const float grey = m_bench->look.light ? 0.6f : 0.1f;
@@ -216,28 +288,69 @@ bool Window::finished(std::string& error, bool& failed)
         if (!problem.empty())
             error = problem;
     failed = !write_screenshot(error) || !error.empty();
-    return true;
+    if (failed || m_arguments.more.empty())
+        return true;
+    begin_next_shot();
+    return false;
+}
+
+void Window::begin_next_shot()
+{
+    const Shot next = m_arguments.more.front();
+    m_arguments.more.erase(m_arguments.more.begin());
+    m_arguments.script = next.script;
+    m_arguments.screenshot = next.screenshot;
+    m_bench->replace(next.script);
+    m_settled_frames = 0;
+}
+
+/// Lets the first frame have a picture if that is about to be read: two first frames take twice as long.
+void Window::await_picture()
+{
+    constexpr double kMost = 0.1, kLook = 0.005;
+    const auto is_coming = [this] {
+        return !m_arguments.files.empty() && !m_bench->studio.shown()
+            && m_bench->studio.document().state().error.empty();
+    };
+    for (const double end = glfwGetTime() + kMost; is_coming() && glfwGetTime() < end;) {
+        const Viewport view = area();
+        m_bench->update(view.visible(m_bench->look), 1.0 / view.zoom(m_bench->look), false);
+        glfwWaitEventsTimeout(kLook);
+    }
+}
+
+/// Until there is something to draw, but no shorter than a frame of the screen: more frames than it shows would take
+/// the processor from the filters.
+void Window::wait()
+{
+    constexpr double kFrame = 1.0 / 60.0, kIdle = 0.1;
+    const double next = m_drawn_at + kFrame;
+    if (m_arguments.random_events > 0 || (m_settled_frames > 0 && !m_arguments.screenshot.empty()))
+        glfwPollEvents();
+    else
+        glfwWaitEventsTimeout(m_drag_begun > 0.0 || m_bench->playing ? kFrame : kIdle);
+    while (m_arguments.random_events == 0 && m_view->is_current(*m_bench) && glfwGetTime() < next)
+        glfwWaitEventsTimeout(std::max(1e-4, next - glfwGetTime()));
+    m_drawn_at = glfwGetTime();
 }
 
 bool Window::run(std::string& error)
 {
     bool failed = false;
+    await_picture();
     while (!glfwWindowShouldClose(m_window) && !m_bench->quit) {
-        const bool busy = m_drag_begun > 0.0 || m_arguments.random_events > 0 || m_settled_frames > 0;
-        const bool waits = m_settled_frames > 2 && m_arguments.screenshot.empty();
-        if (busy && !waits)
-            glfwPollEvents();
-        else
-            glfwWaitEventsTimeout(m_bench->playing ? 0.01 : 0.1);
+        wait();
         draw_frame();
         if (finished(error, failed))
             break;
         glfwSwapBuffers(m_window);
     }
-    glfwHideWindow(m_window);
     const bool ends = m_arguments.screenshot.empty() && m_arguments.measured.empty() && m_arguments.random_events == 0;
-    if (ends)
+    if (ends) {
+        remember_place();
         m_bench->remember();
+    }
+    glfwHideWindow(m_window);
     if (!m_bench->studio.stop()) {
         // The user must not have to wait for a filter or a reader to end, whose result would be lost anyway.
         std::fflush(nullptr);
@@ -309,7 +422,7 @@ void Window::print_measurement() const
         "dragging %s: %.1f pictures per second; %.1f ms each, of which filters %.1f ms, preparing textures %.1f ms\n",
         m_arguments.measured.c_str(), m_drag_pictures / seconds, seconds * each, m_filter_seconds * each,
         (m_make_seconds - m_filter_seconds) * each);
-    std::printf("memory %.0f MB\n", double(document.memory() + m_view->info().texture_memory) / 1e6);
+    std::printf("memory %.0f MB\n", double(m_bench->studio.memory() + m_view->info().texture_memory) / 1e6);
 }
 
 /// Random keys (but none that end the program or write files), clicks, drags and turns of the wheel, anywhere.
@@ -329,6 +442,7 @@ void Window::inject_random_events()
             io.KeysDown[key.code] = true;
             io.KeyCtrl = key.control;
             io.KeyShift = key.shift;
+            m_pressed.push_back({ key.code, key.control, key.shift });
         }
         break;
     }

@@ -2,6 +2,7 @@
 // The window, and the loop that draws it.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <random>
 #include <string>
@@ -27,6 +28,12 @@ public:
     bool run(std::string& error);
 
 private:
+    void begin_panels();
+    bool find_place(int& left, int& top);
+    void remember_place();
+    void await_picture();
+    void wait();
+    void show_title();
     void draw_frame();
     void keys();
     void drop_in();
@@ -34,23 +41,33 @@ private:
     bool measure();
     void print_measurement() const;
     bool write_screenshot(std::string& error) const;
+    void begin_next_shot();
     bool finished(std::string& error, bool& failed);
     Viewport area() const;
 
+    struct Pressed {
+        int code;
+        bool control, shift;
+    };
+
+    static void on_key(GLFWwindow* window, int code, int scan, int action, int modifiers);
     static void on_drop(GLFWwindow* window, int count, const char** names);
 
     Arguments m_arguments;
     GLFWwindow* m_window = nullptr;
-    bool m_glfw = false, m_imgui = false;
+    std::atomic<bool> m_glfw { false };  ///< GLFW is ready; threads ask
+    bool m_imgui = false;
     std::unique_ptr<Workbench> m_bench;
     std::unique_ptr<PictureView> m_view;
     Panels m_panels;
     float m_scale = 1.0f;  ///< of the screen
-    std::string m_layout_file;
+    std::string m_title;
     std::vector<std::string> m_dropped;
+    std::vector<Pressed> m_pressed;  ///< since the last frame
 
     int m_settled_frames = 0;
-    double m_opened = 0.0, m_first_picture = 0.0, m_first_sliders = 0.0, m_whole = 0.0;
+    double m_drawn_at = 0.0;
+    double m_first_picture = 0.0, m_first_sliders = 0.0, m_whole = 0.0;
 
     std::mt19937 m_random;
     int m_events = 0;

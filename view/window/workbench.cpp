@@ -2,9 +2,8 @@
 #include "workbench.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
-
-#include <OpenImageIO/filesystem.h>
 
 #include <pimg/detail/format.h>
 
@@ -57,7 +56,7 @@ void Workbench::open(const std::vector<std::string>& given)
     index = -1;
     go_to(0);
     if (!files.empty())
-        settings["folder"] = OIIO::Filesystem::parent_path(files[0]);
+        settings["folder"] = std::filesystem::absolute(files[0]).parent_path().string();
 }
 
 void Workbench::go_to(int next)
@@ -194,6 +193,15 @@ bool Workbench::apply(const std::string& line)
     return true;
 }
 
+void Workbench::replace(const Script& script)
+{
+    stack = script.stack;
+    look = script.look;
+    save_name = script.output;
+    if (!script.files.empty())
+        open(script.files);
+}
+
 void Workbench::save_preset(const std::string& name)
 {
     if (write_preset(name, shell_line("", stack, ""), message))
@@ -209,6 +217,8 @@ void Workbench::remember() const
     kept.display = look.display;
     kept.transform = look.transform;
     all["look"] = look_argument(kept);
+    if (!stack.items.empty())
+        all["last"] = shell_line("", stack, "");
     if (!settings_file().empty())
         write_settings(all, settings_file());
 }

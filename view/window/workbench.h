@@ -44,6 +44,9 @@ public:
     /// Applies a script: a preset or what was pasted. False with `message` set.
     bool apply(const std::string& line);
 
+    /// Begins anew with what a script says.
+    void replace(const Script& script);
+
     void save_preset(const std::string& name);
     void remember() const;  ///< writes the settings
 

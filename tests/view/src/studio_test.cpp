@@ -2,17 +2,20 @@
 // pimgview without its window: the stack and its command line, undo, and pictures made by threads.
 #include "studio.h"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
 #include <gtest/gtest.h>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 
 #include <pimg/imagebufalgo.h>
 
 #include "display/viewport.h"
+#include "render/glimpse.h"
 #include "state/command_line.h"
 #include "state/history.h"
 
@@ -106,6 +109,19 @@ TEST(FilterStack, EveryOptionOfEveryFilterCanBeSetAndReset)
             set_value(item, option, option.default_value);
             EXPECT_TRUE(item.texts.empty()) << filter.name << " " << option.key;
         }
+}
+
+TEST(FilterStack, LookingWritesNoFiles)
+{
+    FilterStack stack = stack_of("--paint:strokes=a.svg:max=40 --level");
+    const pimg::OptionTexts texts = for_looking(stack.items[0], 4);
+    EXPECT_EQ(texts, (pimg::OptionTexts { { "max", "10" } }));
+    std::string error;
+    ASSERT_TRUE(write_strokes(stack, "b.svg", error)) << error;
+    EXPECT_EQ(stack.items[0].texts[0].second, "b.svg");
+    stack.items[0].on = false;
+    EXPECT_FALSE(write_strokes(stack, "c.svg", error));
+    EXPECT_NE(error.find("c.svg"), std::string::npos);
 }
 
 TEST(FilterStack, TheLastOfTwoAlternativesHolds)
@@ -279,6 +295,76 @@ TEST(Studio, SaysWhyAFileCannotBeRead)
     EXPECT_NE(studio.document().state().error.find("guide"), std::string::npos);
 }
 
+/// Of a .pimg file and of a texture there is a small picture at once.
+TEST(Studio, GlimpsesAtFiles)
+{
+    const std::string name = make_picture(420, 301);
+    const OIIO::ImageBuf whole(name);
+    Studio studio([] {});
+    studio.document().open(name, "", {});
+    wait_for(studio, {});
+    studio.save({}, "glimpsed.pimg");
+    wait_for(studio, {});
+    ASSERT_FALSE(studio.saving().failed) << studio.saving().text;
+    ASSERT_TRUE(
+        OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, whole, "glimpsed.tif", OIIO::ImageSpec()));
+    for (const char* file : { "glimpsed.pimg", "glimpsed.tif" }) {
+        const Glimpse look = glimpse(file, "", { 1e4, 0.0 });
+        EXPECT_EQ(look.parts.size(), 1u);
+        EXPECT_EQ(look.bytes, 420.0 * 301 * 3 * 4) << file;
+        ASSERT_TRUE(look.pixels) << file;
+        EXPECT_GT(look.factor, 1);
+        const OIIO::ImageBuf means = reduced(whole, look.factor);
+        EXPECT_EQ(look.pixels->spec().width, means.spec().width);
+        EXPECT_EQ(look.pixels->spec().height, means.spec().height);
+        // The texture of the picture is no part of the mesh layer; its step, by 4, is.
+        EXPECT_LT(OIIO::ImageBufAlgo::compare(*look.pixels, means, 0.0f, 0.0f).meanerror, 0.1) << file;
+        EXPECT_FALSE(glimpse(file, "", {}).pixels) << "what is read soon needs none";
+    }
+    EXPECT_TRUE(glimpse("nowhere.exr", "", {}).parts.empty());
+}
+
+/// The glimpse of a large file is shown and filtered until the file has been read.
+TEST(Studio, ShowsAGlimpseBeforeTheFile)
+{
+    const OIIO::ImageBuf whole(make_picture(2100, 1500));
+    ASSERT_TRUE(
+        OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, whole, "large.tif", OIIO::ImageSpec()));
+    Studio studio([] {});
+    studio.document().open("large.tif", "", {});
+    bool glimpsed = false;
+    DocumentState state;
+    for (int i = 0; i < 60000 && !(state.is_read() && built_rung(state, 1e9) && !state.rungs.back().glimpse); ++i) {
+        state = studio.document().state();
+        glimpsed = glimpsed || (state.has_picture() && !state.is_read() && state.rungs[0].image);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_TRUE(glimpsed);
+    EXPECT_EQ(state.error, "");
+    EXPECT_EQ(state.rungs[0].factor, 1);
+    EXPECT_EQ(state.width, 2100);
+}
+
+/// What was read stays, whatever becomes of the file.
+TEST(Studio, NeedsNoFileOnceItIsRead)
+{
+    const std::string name = make_picture(160, 120);
+    Studio studio([] {});
+    studio.document().open(name, "", {});
+    wait_for(studio, {});
+    ASSERT_TRUE(OIIO::Filesystem::remove(name));
+    studio.document().rebuild({ { "guide", "luma" } });
+    wait_for(studio, {});
+    EXPECT_EQ(studio.document().state().error, "");
+    studio.save({}, "after.exr");
+    wait_for(studio, {});
+    EXPECT_FALSE(studio.saving().failed) << studio.saving().text;
+    EXPECT_GT(studio.memory(), std::size_t(160 * 120 * 3 * 4));
+    studio.document().open(name, "", {});
+    wait_for(studio, {});
+    EXPECT_NE(studio.document().state().error.find(name), std::string::npos);
+}
+
 TEST(Studio, SavesWhatIsShown)
 {
     const std::string name = make_picture(160, 120);
@@ -294,6 +380,9 @@ TEST(Studio, SavesWhatIsShown)
     }
     const OIIO::ImageBuf saved("saved.exr");
     EXPECT_EQ(OIIO::ImageBufAlgo::compare(saved, *studio.shown()->result.pixels, 0.0f, 0.0f).maxerror, 0.0);
+    studio.save(stack_of("--paint:max=20"), "strokes.svg");
+    wait_for(studio, wanted);
+    EXPECT_TRUE(OIIO::Filesystem::exists("strokes.svg")) << studio.saving().text;
     studio.save(wanted.stack, "nowhere/saved.exr");
     wait_for(studio, wanted);
     EXPECT_TRUE(studio.saving().failed);

@@ -5,18 +5,21 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <stdexcept>
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <OpenImageIO/sysutil.h>
 
 #include <pimg/colour.h>
 #include <pimg/detail/format.h>
+#include <pimg/detail/retuning.h>
 #include <pimg/filter_table.h>
 #include <pimg/threads.h>
 
+#include "render/glimpse.h"
+#include "session/colour.h"
+#include "session/input.h"
 #include "session/pimg_file.h"
-#include "session/stack.h"
 
 namespace pimgview {
 
@@ -25,6 +28,8 @@ namespace {
 using OIIO::ImageBuf;
 using OIIO::ImageSpec;
 using pimg::format;
+
+constexpr double kQuickPixels = 0.3e6;  ///< built in a quarter of a second, filtered thirty times a second and more
 
 double seconds_now()
 {
@@ -55,16 +60,6 @@ void reduce_row(const std::vector<float>& source, const ImageSpec& from, int fac
         }
 }
 
-std::vector<std::string> parts_of(const std::string& filename)
-{
-    std::vector<std::string> names;
-    const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(pimg::io::file_of(filename));
-    for (int part = 0; in && in->seek_subimage(part, 0); ++part)
-        names.push_back(pimgtool::part_name(in->spec(), part));
-    OIIO::geterror();
-    return names;
-}
-
 /// The layers of a part, in the order of its channels, whose channels can be a picture.
 std::vector<std::string> layers_of(const ImageSpec& spec)
 {
@@ -78,6 +73,11 @@ std::vector<std::string> layers_of(const ImageSpec& spec)
             layers.push_back(layer);
     }
     return layers;
+}
+
+void drop_glimpse(std::vector<Rung>& rungs)
+{
+    rungs.erase(std::remove_if(rungs.begin(), rungs.end(), [](const Rung& rung) { return rung.glimpse; }), rungs.end());
 }
 
 }  // namespace
@@ -105,11 +105,9 @@ OIIO::ImageBuf reduced(const ImageBuf& pixels, int factor)
 
 std::vector<int> smaller_factors(int width, int height)
 {
-    // A window of 1920 x 1200 beside the panels shows a million pixels and a half at most; a quarter of a million is
-    // built in about 0.3 s (measured: 0.29 s on two cores that others used, too).
-    constexpr double kWindow = 1.5e6, kQuick = 0.25e6;
+    constexpr double kWindow = 1.5e6;  // of 1920 x 1200 with panels beside the picture, at most
     std::vector<int> factors;
-    for (const double most : { kWindow, kQuick }) {
+    for (const double most : { kWindow, kQuickPixels }) {
         const int factor = int(std::ceil(std::sqrt(double(width) * height / most)));
         if (factor > 1 && (factors.empty() || factor > factors.back()) && width / factor > 1 && height / factor > 1)
             factors.push_back(factor);
@@ -121,6 +119,11 @@ double build_bytes(double pixels)
 {
     constexpr double kBytesPerPixel = 300.0;  // measured: 270 more for each pixel from 1 to 8 megapixels, at the peak
     return kBytesPerPixel * pixels;
+}
+
+double most_bytes()
+{
+    return 0.75 * double(OIIO::Sysutil::physical_memory());
 }
 
 std::size_t DocumentState::memory() const
@@ -176,7 +179,7 @@ void Document::open(const std::string& filename, const std::string& part, const 
 void Document::rebuild(const pimg::OptionTexts& build)
 {
     const DocumentState now = state();
-    begin(now.filename, now.part, build, now.has_picture());
+    begin(now.filename, now.part, build, now.is_read());
 }
 
 void Document::begin(const std::string& filename, const std::string& part, const pimg::OptionTexts& texts, bool again)
@@ -197,8 +200,12 @@ void Document::begin(const std::string& filename, const std::string& part, const
             next.stored = m_state.stored;
             next.linear_light = m_state.linear_light;
             next.read_seconds = m_state.read_seconds;
+            next.width = m_state.width;
+            next.height = m_state.height;
+            next.turned = m_state.turned;
             for (Rung& rung : next.rungs)
                 rung.image = nullptr;
+            drop_glimpse(next.rungs);
         }
         next.activity = again ? "building" : "reading";
         pimg::set_options(next.build, texts, error);
@@ -210,7 +217,7 @@ void Document::begin(const std::string& filename, const std::string& part, const
     }
     m_worker.post([this, version, again](const std::atomic<bool>& stop) {
         try {
-            if (again || read(version))
+            if (again || read(version, stop))
                 build(version, stop);
         } catch (const std::bad_alloc&) {
             fail(version, "not enough memory");
@@ -220,55 +227,109 @@ void Document::begin(const std::string& filename, const std::string& part, const
     });
 }
 
-bool Document::read(int version)
+/// Shows what can be had of the file at once, if the format has something, and lets filters work on it.
+void Document::show_glimpse(int version, const std::atomic<bool>& stop)
+{
+    const double begun = seconds_now();
+    const DocumentState now = state();
+    const Glimpse look = glimpse(now.filename, now.part, GlimpseSize { kQuickPixels });
+    if (look.bytes > most_bytes())
+        throw std::runtime_error(format("\"{}\" takes {:.1f} GB of memory: expected at most {:.1f}, three quarters of "
+                                        "the machine's",
+                                        now.filename, look.bytes / 1e9, most_bytes() / 1e9));
+    update(version, [&](DocumentState& state) {
+        state.parts = look.parts;
+        if (!look.pixels)
+            return;
+        state.width = look.stored.width;
+        state.height = look.stored.height;
+        state.rungs = { { look.factor, look.pixels, nullptr, true } };
+        state.linear_light = pimgtool::holds_linear_light(look.stored);
+    });
+    if (look.pixels && build_rung(version, 0, stop))
+        update(version, [&](DocumentState& state) { state.first_build_seconds = seconds_now() - begun; });
+}
+
+bool Document::read(int version, const std::atomic<bool>& stop)
 {
     const double begun = seconds_now();
     const std::string filename = state().filename;
-    pimgtool::Session session;
-    session.announce(filename);
-    session.input.part = state().part;
     if (!OIIO::Filesystem::exists(pimg::io::file_of(filename))) {
         fail(version, format("cannot read \"{}\": no such file", filename));
         return false;
     }
-    if (!session.read(filename)) {
-        fail(version, session.error());
+    show_glimpse(version, stop);
+    pimgtool::InputOptions options;
+    options.part = state().part;
+    options.keeps_parts = false;
+    pimgtool::InputFile file;
+    std::string error;
+    const auto progress = [&](float done) {
+        update(version, [&](DocumentState& state) {
+            state.activity = "reading";
+            state.progress = done;
+        });
+    };
+    if (stop || !current(version))
+        return false;
+    progress(0.0f);
+    if (!pimgtool::read_file(filename, options, progress, file, error)) {
+        fail(version, format("cannot read \"{}\": {}", filename, error));
         return false;
     }
-    const pimgtool::Picture picture = session.top();
-    if (picture.pixels->deep() || picture.pixels->spec().depth > 1) {
+    const pimgtool::InputPart& part = file.parts[0];
+    const ImageSpec& spec = part.pixels->spec();
+    if (part.pixels->deep() || spec.depth > 1) {
         fail(version,
              format("cannot show \"{}\": it is {}, expected a flat picture", filename,
-                    picture.pixels->deep() ? "deep" : "a volume"));
+                    part.pixels->deep() ? "deep" : "a volume"));
         return false;
     }
-    const std::vector<std::string> parts = parts_of(filename), layers = layers_of(picture.pixels->spec());
-    update(version, [&](DocumentState& state) {
-        state.parts = parts;
-        state.layers = layers;
-        state.rungs = { { 1, picture.pixels, nullptr } };
-        state.stored = picture.stored;
-        state.linear_light = picture.linear_light;
-        state.read_seconds = seconds_now() - begun;
-    });
-    for (const int factor : smaller_factors(picture.pixels->spec().width, picture.pixels->spec().height)) {
-        const auto smaller = std::make_shared<ImageBuf>(reduced(*picture.pixels, factor));
-        update(version, [&](DocumentState& state) { state.rungs.push_back({ factor, smaller, nullptr }); });
-    }
+    show_read(version, part, seconds_now() - begun);
     return true;
+}
+
+/// Shows what was read, and makes its smaller copies. A glimpse that filters work on stays last until another can take
+/// its place.
+void Document::show_read(int version, const pimgtool::InputPart& part, double seconds)
+{
+    const ImageSpec& spec = part.pixels->spec();
+    const std::vector<std::string> layers = layers_of(spec);
+    update(version, [&](DocumentState& state) {
+        state.layers = layers;
+        state.width = spec.width;
+        state.height = spec.height;
+        state.rungs.insert(state.rungs.begin(), { 1, part.pixels, nullptr, false });
+        if (state.rungs.back().glimpse && !state.rungs.back().image)
+            state.rungs.pop_back();
+        state.stored = { part.stored.format, part.stored.channelformats };
+        state.linear_light = pimgtool::holds_linear_light(part.stored);
+        state.turned = part.turned;
+        state.read_seconds = seconds;
+    });
+    for (const int factor : smaller_factors(spec.width, spec.height)) {
+        const auto smaller = std::make_shared<ImageBuf>(reduced(*part.pixels, factor));
+        update(version, [&](DocumentState& state) {
+            const auto end = state.rungs.end() - (state.rungs.back().glimpse ? 1 : 0);
+            state.rungs.insert(end, { factor, smaller, nullptr, false });
+        });
+    }
 }
 
 void Document::build(int version, const std::atomic<bool>& stop)
 {
     const double begun = seconds_now();
-    const std::size_t count = state().rungs.size();
+    const std::vector<Rung> rungs = state().rungs;
+    const auto count =
+        std::size_t(std::count_if(rungs.begin(), rungs.end(), [](const Rung& rung) { return !rung.glimpse; }));
     // The smallest first, so that sliders can be moved soon.
     for (std::size_t i = count; i-- > 0;) {
         if (stop || !current(version) || !build_rung(version, i, stop))
             return;
         update(version, [&](DocumentState& state) {
+            drop_glimpse(state.rungs);
             const double seconds = state.read_seconds + seconds_now() - begun;
-            if (i + 1 == count)
+            if (state.first_build_seconds == 0.0)
                 state.first_build_seconds = seconds;
             state.built_seconds = seconds;
         });
@@ -281,8 +342,7 @@ bool Document::build_rung(int version, std::size_t index, const std::atomic<bool
     const DocumentState now = state();
     const Rung rung = now.rungs[index];
     const double pixels = double(rung.pixels->spec().image_pixels());
-    const double most = 0.75 * double(OIIO::Sysutil::physical_memory());
-    if (rung.factor == 1 && now.rungs.size() > 1 && build_bytes(pixels) > most) {
+    if (rung.factor == 1 && now.rungs.size() > 1 && build_bytes(pixels) > most_bytes()) {
         fail(version,
              format("not enough memory to build {:.0f} megapixels: filters work on a smaller copy", pixels / 1e6));
         return false;
@@ -293,7 +353,7 @@ bool Document::build_rung(int version, std::size_t index, const std::atomic<bool
         state.progress = 0.0f;
     });
     auto image = std::make_shared<pimg::ProgressiveImage>();
-    const auto stored = rung.factor == 1 && pimg::io::file_of(now.filename) == now.filename
+    const auto stored = rung.factor == 1 && !now.turned && pimg::io::file_of(now.filename) == now.filename
         ? pimgtool::StoredHierarchy::open(now.filename, rung.pixels->spec())
         : nullptr;
     const auto progress = [&](float done) {
@@ -308,6 +368,7 @@ bool Document::build_rung(int version, std::size_t index, const std::atomic<bool
             fail(version, image->error());
         return false;
     }
+    pimg::expect_retunes(*image);
     update(version, [&](DocumentState& state) { state.rungs[index].image = image; });
     return true;
 }

@@ -15,6 +15,7 @@
 #include <pimg/progressive_image.h>
 
 #include "render/worker.h"
+#include "session/input.h"
 #include "session/output.h"
 
 namespace pimgview {
@@ -24,6 +25,7 @@ struct Rung {
     int factor = 1;
     std::shared_ptr<const OIIO::ImageBuf> pixels;
     std::shared_ptr<const pimg::ProgressiveImage> image;  ///< null until it is built
+    bool glimpse = false;  ///< stands for the smallest until that is built; see glimpse.h
 };
 
 /// What there is of a file so far.
@@ -32,7 +34,8 @@ struct DocumentState {
     std::string part;                 ///< that was asked for; empty: the first that holds a picture
     std::vector<std::string> parts;   ///< names of all parts of the file
     std::vector<std::string> layers;  ///< of the part, those that may be the picture
-    std::vector<Rung> rungs;          ///< the file's own size first, then smaller ones; none until it has been read
+    int width = 0, height = 0;        ///< of the picture in the file
+    std::vector<Rung> rungs;  ///< the file's own size first, then smaller ones; before it has been read, a glimpse
     pimgtool::PixelTypes stored;
     bool linear_light = false;
     pimg::BuildOptions build;
@@ -44,9 +47,12 @@ struct DocumentState {
     double built_seconds = 0.0;        ///< and to all of them
     int version = 0;                   ///< differs for every file, and every set of options of building
 
+    bool turned = false;  ///< upright, other than in the file
+
     bool has_picture() const { return !rungs.empty(); }
+    bool is_read() const { return has_picture() && !rungs[0].glimpse; }
     bool finished() const { return activity.empty(); }
-    std::size_t memory() const;  ///< bytes of pixels and progressive images
+    std::size_t memory() const;  ///< bytes of pixels and progressive images; waits for filters that fill caches
 };
 
 class Document {
@@ -69,7 +75,9 @@ public:
 private:
     void begin(const std::string& filename, const std::string& part, const pimg::OptionTexts& build, bool again);
     bool current(int version) const;
-    bool read(int version);
+    bool read(int version, const std::atomic<bool>& stop);
+    void show_read(int version, const pimgtool::InputPart& part, double seconds);
+    void show_glimpse(int version, const std::atomic<bool>& stop);
     void build(int version, const std::atomic<bool>& stop);
     bool build_rung(int version, std::size_t rung, const std::atomic<bool>& stop);
     void update(int version, const std::function<void(DocumentState&)>& change);
@@ -88,7 +96,8 @@ OIIO::ImageBuf reduced(const OIIO::ImageBuf& pixels, int factor);
 /// within about a third of a second.
 std::vector<int> smaller_factors(int width, int height);
 
-/// Bytes of memory that building a picture takes at most.
+/// Bytes of memory that building a picture takes at most, and those that this program may take of the machine's.
 double build_bytes(double pixels);
+double most_bytes();
 
 }  // namespace pimgview

@@ -5,6 +5,9 @@
 #include <exception>
 #include <utility>
 
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/strutil.h>
+
 #include <pimg/detail/format.h>
 #include <pimg/detail/stop.h>
 #include <pimg/labels.h>
@@ -38,6 +41,11 @@ std::shared_ptr<const pimg::ProgressiveImage> build(const ImageBuf& pixels, cons
 
 }  // namespace
 
+bool Renderer::is_too_much(const DocumentState& document, const ImageBuf& next) const
+{
+    return double(document.memory() + memory()) + build_bytes(double(next.spec().image_pixels())) > most_bytes();
+}
+
 bool Renderer::apply(const StackItem& item, Stage& stage, const Rendering& before, const pimg::ProgressiveImage& image,
                      const std::atomic<bool>& stop)
 {
@@ -45,7 +53,8 @@ bool Renderer::apply(const StackItem& item, Stage& stage, const Rendering& befor
     pimg::BoundFilter filter;
     std::string error;
     auto result = std::make_shared<ImageBuf>();
-    if (!item.filter->bind(for_reduced(item, before.factor), filter, error))
+    const pimg::OptionTexts texts = m_writes ? item.texts : for_looking(item, before.factor);
+    if (!item.filter->bind(texts, filter, error))
         stage.result.error = format("{}: {}", item.filter->command, error);
     else if (!filter(*result, image, {}, 0))
         stage.result.error =
@@ -87,6 +96,10 @@ Rendering Renderer::render(const DocumentState& document, const Rung& rung, cons
         if (at == m_stages.size() || m_stages[at].argument != argument) {
             m_stages.resize(at);
             Stage stage { argument, {}, nullptr };
+            if (at > 0 && !m_stages[at - 1].image && is_too_much(document, *rung.pixels)) {
+                stage.result.error = format("{}: not enough memory for one more filter: expected fewer", argument);
+                return stage.result;
+            }
             if (at > 0 && !m_stages[at - 1].image)
                 m_stages[at - 1].image =
                     build(*before->pixels, options_of_next(document.build), stop, stage.result.error);
@@ -101,6 +114,14 @@ Rendering Renderer::render(const DocumentState& document, const Rung& rung, cons
     Rendering result = *before;
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     return result;
+}
+
+std::size_t Renderer::memory() const
+{
+    std::size_t bytes = 0;
+    for (const Stage& stage : m_stages)
+        bytes += stage.result.pixels->spec().image_bytes() + (stage.image ? stage.image->memory() : 0);
+    return bytes;
 }
 
 const Rung* built_rung(const DocumentState& document, double scale)
@@ -118,19 +139,12 @@ const Rung* built_rung(const DocumentState& document, double scale)
     return coarsest != nullptr ? coarsest : finest;
 }
 
-bool save(const DocumentState& document, const FilterStack& stack, const std::string& filename,
-          const std::atomic<bool>& stop, std::string& summary, std::string& error)
+namespace {
+
+/// The picture as a file; see save().
+bool write_result(const DocumentState& document, const Rendering& result, const std::string& filename,
+                  const std::atomic<bool>& stop, std::string& summary, std::string& error)
 {
-    if (!pimgtool::can_write(filename, error)) {
-        error = format("cannot write \"{}\": {}", filename, error);
-        return false;
-    }
-    Renderer renderer;
-    const Rendering result = renderer.render(document, document.rungs[0], stack, stop);
-    if (!result.pixels) {
-        error = result.error;
-        return false;
-    }
     pimg::io::WriteOptions options;
     options.profile = "full";
     std::shared_ptr<const pimg::ProgressiveImage> image;
@@ -157,12 +171,35 @@ bool save(const DocumentState& document, const FilterStack& stack, const std::st
     }
     std::string warning;
     if (pimgtool::write_picture(out, filename, [](float) {}, { summary, warning, error })) {
-        if (!warning.empty())
-            summary += "; " + warning;
+        summary += warning.empty() ? "" : "; " + warning;
         return true;
     }
     error = format("cannot write \"{}\": {}", filename, error);
     return false;
+}
+
+bool is_for_strokes(const std::string& filename)
+{
+    const std::string extension = OIIO::Filesystem::extension(filename);
+    return OIIO::Strutil::iequals(extension, ".svg") || OIIO::Strutil::iequals(extension, ".json");
+}
+
+}  // namespace
+
+bool save(const DocumentState& document, const FilterStack& stack, const std::string& filename,
+          const std::atomic<bool>& stop, std::string& summary, std::string& error)
+{
+    FilterStack all = stack;
+    const bool strokes = is_for_strokes(filename);
+    if (strokes ? !write_strokes(all, filename, error) : !pimgtool::can_write(filename, error)) {
+        error = format("cannot write {}", strokes ? error : format("\"{}\": {}", filename, error));
+        return false;
+    }
+    Renderer renderer(true);
+    const Rendering result = renderer.render(document, document.rungs[0], all, stop);
+    error = result.error;
+    summary = "strokes";
+    return result.pixels && (strokes || write_result(document, result, filename, stop, summary, error));
 }
 
 }  // namespace pimgview

@@ -27,9 +27,15 @@ struct Rendering {
 /// thread at a time.
 class Renderer {
 public:
+    /// `writes`: options that name a file to be written, such as strokes, have their effect.
+    explicit Renderer(bool writes = false) : m_writes(writes) { }
+
     /// The result of the filters that are on. The rung must have an image unless none is on.
     Rendering render(const DocumentState& document, const Rung& rung, const FilterStack& stack,
                      const std::atomic<bool>& stop);
+
+    /// Bytes of what is remembered.
+    std::size_t memory() const;
 
 private:
     /// What came out of one filter, and the progressive image of it when the next has asked for it.
@@ -39,9 +45,11 @@ private:
         std::shared_ptr<const pimg::ProgressiveImage> image;
     };
 
+    bool is_too_much(const DocumentState& document, const OIIO::ImageBuf& next) const;
     bool apply(const StackItem& item, Stage& stage, const Rendering& before, const pimg::ProgressiveImage& image,
                const std::atomic<bool>& stop);
 
+    const bool m_writes;
     std::vector<Stage> m_stages;
     std::shared_ptr<const OIIO::ImageBuf> m_source;
     int m_version = -1;
@@ -52,7 +60,8 @@ private:
 const Rung* built_rung(const DocumentState& document, double scale);
 
 /// Writes what the stack makes of the document, which must be built, as pimgtool would: its formats, types and colour
-/// rules; a .pimg file has the hierarchy. Files are written whole or not at all.
+/// rules; a .pimg file has the hierarchy. Names that end in .svg or .json are for the strokes of the last filter that has
+/// some. Files are written whole or not at all.
 bool save(const DocumentState& document, const FilterStack& stack, const std::string& filename,
           const std::atomic<bool>& stop, std::string& summary, std::string& error);
 

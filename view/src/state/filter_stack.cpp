@@ -71,20 +71,33 @@ void set_value(StackItem& item, const OptionInfo& option, const std::string& val
     }
 }
 
-OptionTexts for_reduced(const StackItem& item, int factor)
+OptionTexts for_looking(const StackItem& item, int factor)
 {
     OptionTexts texts = item.texts;
-    if (factor == 1)
-        return texts;
     for (const OptionInfo& option : item.filter->options()) {
+        if (option.file == pimg::FileUse::written)
+            set_value(texts, option, option.default_value);
         const std::string value = value_of(item.texts, option);
-        if ((option.unit != "pixels" && option.unit != pimg::kPixelsOrShare) || value.empty())
+        if (factor == 1 || (option.unit != "pixels" && option.unit != pimg::kPixelsOrShare) || value.empty())
             continue;
         const double smaller = pimg::resized_length(option, OIIO::Strutil::stod(value), 1.0 / factor);
         const double kept = std::max(option.min, smaller);
         set_value(texts, option, pimg::format("{}", option.type == "int" ? std::round(kept) : kept));
     }
     return texts;
+}
+
+bool write_strokes(FilterStack& stack, const std::string& filename, std::string& error)
+{
+    for (auto item = stack.items.rbegin(); item != stack.items.rend(); ++item)
+        for (const OptionInfo& option : item->filter->options())
+            if (item->on && option.file == pimg::FileUse::written) {
+                set_value(*item, option, filename);
+                return true;
+            }
+    error =
+        pimg::format("\"{}\": expected a filter whose strokes can be written, such as paint, mosaic or ink", filename);
+    return false;
 }
 
 SliderRange slider_range(const OptionInfo& option)

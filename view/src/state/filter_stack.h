@@ -44,9 +44,13 @@ void set_value(pimg::OptionTexts& texts, const pimg::OptionInfo& option, const s
 /// As above. If the filter then refuses its options because another option says the same thing, that one is removed.
 void set_value(StackItem& item, const pimg::OptionInfo& option, const std::string& value);
 
-/// The options of a filter for a picture that is `factor` times smaller: lengths in pixels shrink with it, within their
-/// ranges.
-pimg::OptionTexts for_reduced(const StackItem& item, int factor);
+/// The options of a filter for looking at what it makes of a picture that is `factor` times smaller: lengths in pixels
+/// shrink with it, within their ranges, and no files are written.
+pimg::OptionTexts for_looking(const StackItem& item, int factor);
+
+/// Makes the last filter that can, such as paint or ink, write its strokes to a file. False, with one line in `error`, if
+/// none can.
+bool write_strokes(FilterStack& stack, const std::string& filename, std::string& error);
 
 /// The smallest and largest value that a slider should offer, and whether it should be logarithmic.
 struct SliderRange {

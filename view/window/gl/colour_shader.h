@@ -41,7 +41,7 @@ private:
 
     GLuint m_program = 0;
     Light m_result, m_source;
-    std::string m_display, m_transform;
+    std::string m_display, m_transform, m_definitions;
     std::unique_ptr<Tables> m_tables;
 };
 
