@@ -3,6 +3,11 @@
 include_guard(GLOBAL)
 include(GNUInstallDirs)
 
+# The generation of the ABI, of which the inline namespace v0_2 and libpimg_core.so.0.2 have their names.
+file(STRINGS "${PROJECT_SOURCE_DIR}/core/include/pimg/abi.h" PIMG_ABI_VERSION REGEX "^#define PIMG_ABI v")
+string(REGEX REPLACE "^#define PIMG_ABI v" "" PIMG_ABI_VERSION "${PIMG_ABI_VERSION}")
+string(REPLACE "_" "." PIMG_ABI_VERSION "${PIMG_ABI_VERSION}")
+
 # pimg_target_defaults(<target>): language level, warnings, visibility, floating point.
 function(pimg_target_defaults target)
     target_compile_features(${target} PUBLIC cxx_std_17)
@@ -13,7 +18,14 @@ function(pimg_target_defaults target)
         POSITION_INDEPENDENT_CODE ON)
     if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
         # No contraction into fused multiply-adds: the same picture gives the same bits on every machine.
-        target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wconversion -ffp-contract=off)
+        # Nobody replaces our functions by others of the same name when programs start: calls of exported ones may be
+        # inlined.
+        target_compile_options(${target} PRIVATE
+            -Wall -Wextra -Wshadow -Wconversion -ffp-contract=off -fno-semantic-interposition)
+        # Two builds of one commit give the same files, wherever they are made.
+        target_compile_options(${target} PRIVATE
+            "$<$<CONFIG:Release>:-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=>"
+            "$<$<CONFIG:Release>:-ffile-prefix-map=${PROJECT_BINARY_DIR}/=build/>")
         if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
             # GCC 12 sees uninitialised strings in the alternatives a std::variant does not hold.
             target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)
@@ -31,22 +43,69 @@ function(pimg_precompile target)
         <OpenImageIO/filesystem.h> <OpenImageIO/imagebuf.h> <OpenImageIO/imagebufalgo.h> <OpenImageIO/strutil.h>)
 endfunction()
 
-# pimg_add_library(<name> HEADERS ... DETAIL_HEADERS ... SOURCES ...): the static library pimg_<name>, used and exported as
-# pimg::<name>. Its public headers are in include/pimg beside the caller or, when generated, in its build folder. Detail
-# headers, in include/pimg/detail, are for our other libraries and are not installed.
+# pimg_install_manual(<file> <program>): the manual of a program, compressed if it goes into a package.
+function(pimg_install_manual file program)
+    set(folder "${CMAKE_INSTALL_MANDIR}/man1")
+    if(PIMG_PACKAGING)  # Debian's policy; -n: neither name nor time goes in
+        set(packed "${CMAKE_CURRENT_BINARY_DIR}/${program}.1.gz")
+        install(CODE "execute_process(COMMAND gzip -9 -n -c \"${file}\" OUTPUT_FILE \"${packed}\"
+            COMMAND_ERROR_IS_FATAL ANY)" COMPONENT tools)
+        install(FILES "${packed}" DESTINATION "${folder}" COMPONENT tools)
+    else()
+        install(FILES "${file}" DESTINATION "${folder}" RENAME ${program}.1 COMPONENT tools)
+    endif()
+endfunction()
+
+# pimg_install_rpath(<target> <destination>): where a target that is installed there finds our shared libraries; nothing if
+# they are static, or part of it.
+function(pimg_install_rpath target destination)
+    if(BUILD_SHARED_LIBS AND CMAKE_SYSTEM_NAME STREQUAL "Linux")
+        cmake_path(ABSOLUTE_PATH destination BASE_DIRECTORY "${CMAKE_INSTALL_PREFIX}" NORMALIZE)
+        cmake_path(RELATIVE_PATH CMAKE_INSTALL_FULL_LIBDIR BASE_DIRECTORY "${destination}" OUTPUT_VARIABLE libraries)
+        set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")
+    endif()
+endfunction()
+
+# pimg_shared_library(<target> <name>): name, generation and exported symbols of the shared library pimg_<name>.
+function(pimg_shared_library target name)
+    set_target_properties(${target} PROPERTIES
+        OUTPUT_NAME pimg_${name}
+        VERSION ${PROJECT_VERSION}
+        SOVERSION ${PIMG_ABI_VERSION}
+        DEFINE_SYMBOL "")
+    if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
+        set(map "${PROJECT_SOURCE_DIR}/cmake/pimg.map")
+        set_target_properties(${target} PROPERTIES LINK_DEPENDS "${map}")
+        target_link_options(${target} PRIVATE -Wl,-z,defs "-Wl,--version-script=${map}")
+    endif()
+endfunction()
+
+# pimg_add_library(<name> HEADERS ... DETAIL_HEADERS ... SOURCES ...): the library pimg_<name>, used and exported as
+# pimg::<name>; shared if BUILD_SHARED_LIBS is on. Its public headers are in include/pimg beside the caller or, when
+# generated, in its build folder. Detail headers, in include/pimg/detail, are for our other libraries and are not
+# installed.
 function(pimg_add_library name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;DETAIL_HEADERS;SOURCES")
     set(target pimg_${name})
-    add_library(${target} STATIC ${arg_SOURCES})
+    set(type STATIC)
+    if(BUILD_SHARED_LIBS)
+        set(type SHARED)
+    endif()
+    add_library(${target} ${type} ${arg_SOURCES})
     add_library(pimg::${name} ALIAS ${target})
     set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
     pimg_target_defaults(${target})
+    if(BUILD_SHARED_LIBS)
+        pimg_shared_library(${target} ${name})
+        pimg_install_rpath(${target} "${CMAKE_INSTALL_LIBDIR}")
+    endif()
     target_sources(${target} PUBLIC FILE_SET HEADERS
         BASE_DIRS include ${CMAKE_CURRENT_BINARY_DIR}/include
         FILES ${arg_HEADERS})
     target_sources(${target} PRIVATE ${arg_DETAIL_HEADERS})
     target_include_directories(${target} PRIVATE src)
     install(TARGETS ${target} EXPORT pimg_${name}
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT dev
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev
         FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
     install(EXPORT pimg_${name} NAMESPACE pimg:: FILE pimg_${name}.cmake

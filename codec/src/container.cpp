@@ -4,6 +4,7 @@
 #include <cstring>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 bool is_pimg(const void* data, std::size_t size)
 {
@@ -232,4 +233,5 @@ Status read_attributes(ByteReader in, const DecodeLimits& limits, PictureDesc& d
     return in.finished() ? Status() : bad();
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -10,6 +10,7 @@
 #include "raster/samples.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 constexpr std::uint8_t kSignature[8] = { 0x8a, 'P', 'I', 'M', 0x0d, 0x0a, 0x1a, 0x0a };
 constexpr std::uint32_t kMajorVersion = 1, kMinorVersion = 0;
@@ -53,4 +54,5 @@ Status read_attributes(ByteReader in, const DecodeLimits& limits, PictureDesc& d
 /// Checks a description, for the writer and for the reader.
 Status check_desc(const PictureDesc& desc, const DecodeLimits& limits);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

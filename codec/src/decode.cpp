@@ -13,6 +13,7 @@
 #include "sequence/collapse_sequence.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -244,4 +245,5 @@ Status Decoder::read_hierarchy(const std::vector<ConstStridedChannel>& samples,
     });
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -250,4 +251,5 @@ Status Decoder::File::shared_layer(std::shared_ptr<const LayerState>& state) con
     return layer_status;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -13,6 +13,7 @@
 #include "mesh_layer/mesh_layer.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// A chunk and where it is; `offset` is that of its head.
 struct Chunk {
@@ -91,4 +92,5 @@ struct Decoder::File {
     }
 };
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -8,6 +8,7 @@
 #include "raster/samples.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// One channel of a tile as the mesh layer shows it.
 Status Decoder::File::show(const SamplePoints& points, std::uint32_t column, std::uint32_t row, std::size_t c,
@@ -104,4 +105,5 @@ Status Decoder::File::tile(std::uint32_t column, std::uint32_t row, const std::v
     return exact && !in.finished() ? Status::failure("pimg: tile " + std::to_string(number) + " is damaged") : Status();
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -17,6 +17,7 @@
 #include "sequence/collapse_sequence.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -353,4 +354,5 @@ Status encode(const PictureDesc& desc, const std::vector<ConstStridedChannel>& s
     });
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

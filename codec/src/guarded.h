@@ -10,6 +10,7 @@
 #include <pimg/types.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Returns what body() returns. If it throws, because memory runs out or a callback of the caller throws, returns a
 /// failure.
@@ -29,4 +30,5 @@ Status guarded(Body&& body)
     }
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -10,6 +10,7 @@
 #include <pimg/imagebufalgo.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -148,4 +149,5 @@ const Filter* find_filter(std::string_view name, std::string& error)
     return nullptr;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -5,7 +5,10 @@
 #include <cstdint>
 #include <string>
 
+#include <pimg/abi.h>
+
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Appends the lowest `size` bytes of a number, 1 to 4.
 inline void append_big_endian(std::string& bytes, std::uint32_t number, int size)
@@ -14,4 +17,5 @@ inline void append_big_endian(std::string& bytes, std::uint32_t number, int size
         bytes.push_back(char(number >> shift & 0xFF));
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

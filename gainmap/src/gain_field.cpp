@@ -11,6 +11,7 @@
 #include "linear_axis.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -258,4 +259,5 @@ void apply_gain_map(const OIIO::ImageBuf& map, const GainMetadata& metadata, dou
     }
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -10,6 +10,7 @@
 #include "gain_metadata.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Display-linear RGB, row by row, three samples a pixel.
 struct Light {
@@ -33,4 +34,5 @@ GainMap make_gain_map(const Light& base, const Light& rendition, const GainMapOp
 /// is below 0. The map's samples are interpolated linearly between their centres.
 void apply_gain_map(const OIIO::ImageBuf& map, const GainMetadata& metadata, double headroom, Light& light);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

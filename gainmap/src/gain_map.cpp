@@ -16,6 +16,7 @@
 #include "multi_picture.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 template<>
 const std::vector<Option<GainMapOptions>>& option_table<GainMapOptions>()
@@ -287,4 +288,5 @@ OIIO::ImageBuf gain_map_rendition(const std::string& file, float headroom)
     return result;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

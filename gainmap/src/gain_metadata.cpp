@@ -6,6 +6,7 @@
 #include <pimg/detail/format.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -44,4 +45,5 @@ bool check_gain_metadata(const GainMetadata& metadata, std::string& error)
     return true;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -7,7 +7,10 @@
 #include <string>
 #include <string_view>
 
+#include <pimg/abi.h>
+
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// With v a sample of the map, 0..1, and W the weight of the display, 0..1, a channel becomes
 ///     (base + base_offset) * 2^(W (min + (max - min) v^(1 / gamma))) - alternate_offset.
@@ -42,4 +45,5 @@ bool parse_xmp_gain_metadata(std::string_view packet, GainMetadata& metadata, st
 /// The XMP packet of the base: `packet`, which may be empty, and a directory of both pictures.
 std::string xmp_with_directory(std::string_view packet, std::size_t gain_map_size);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -8,6 +8,7 @@
 #include "gain_metadata.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -122,4 +123,5 @@ bool parse_iso_gain_metadata(std::string_view bytes, GainMetadata& metadata, std
     return check_gain_metadata(metadata, error);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -9,6 +9,7 @@
 #include <pimg/detail/format.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -186,4 +187,5 @@ bool encode_jpeg(const OIIO::ImageBuf& pixels, int quality, bool half_colour, st
     return true;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -9,7 +9,10 @@
 
 #include <OpenImageIO/imagebuf.h>
 
+#include <pimg/abi.h>
+
 namespace pimg {
+inline namespace PIMG_ABI {
 
 constexpr unsigned char kApp0 = 0xE0, kApp1 = 0xE1, kApp2 = 0xE2;
 
@@ -45,4 +48,5 @@ bool decode_jpeg(std::string_view stream, const OIIO::ImageSpec* base, OIIO::Ima
 /// A JPEG stream from pixels of 1 or 3 channels, 0..1; `half_colour` halves the resolution of colour both ways.
 bool encode_jpeg(const OIIO::ImageBuf& pixels, int quality, bool half_colour, std::string& stream, std::string& error);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

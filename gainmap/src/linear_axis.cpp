@@ -6,6 +6,7 @@
 #include <limits>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -65,4 +66,5 @@ void LinearAxis::fit(const double* values, std::size_t stride, double* result, s
         result[i * result_stride] = least[i] <= most[i] ? std::clamp(sums[i], least[i], most[i]) : 0.0;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -6,7 +6,10 @@
 #include <cstddef>
 #include <vector>
 
+#include <pimg/abi.h>
+
 namespace pimg {
+inline namespace PIMG_ABI {
 
 class LinearAxis {
 public:
@@ -36,4 +39,5 @@ private:
     std::vector<double> m_diagonal, m_above, m_ratio;
 };
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

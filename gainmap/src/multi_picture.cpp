@@ -4,6 +4,7 @@
 #include "big_endian.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -95,4 +96,5 @@ std::vector<IndexedPicture> parse_multi_picture_index(std::string_view bytes)
     return pictures;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -9,7 +9,10 @@
 #include <string_view>
 #include <vector>
 
+#include <pimg/abi.h>
+
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// What the payload of the segment begins with, before the TIFF header.
 constexpr std::string_view kMultiPictureName { "MPF\0", 4 };
@@ -26,4 +29,5 @@ constexpr std::size_t kIndexSize = 82;
 /// Empty if the bytes are no such index.
 std::vector<IndexedPicture> parse_multi_picture_index(std::string_view bytes);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -10,6 +10,7 @@
 #include "gain_metadata.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -190,4 +191,5 @@ std::string xmp_with_directory(std::string_view packet, std::size_t gain_map_siz
     return text_of(document);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -7,6 +7,7 @@
 #include <pimg/strokes.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -201,4 +202,5 @@ Brush::Mask Brush::mask(float width, std::uint32_t variation) const
     return { kColumns >> level, kRows >> level, levels[level].data() };
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -14,6 +14,7 @@
 #include "sketch.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -174,4 +175,5 @@ std::vector<Index> grow_cells(const Mesh& mesh, const ChannelsView& guides, cons
     return Growth(seeds, pictures.finest(), guides.width, guides.height, 1).grow();
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

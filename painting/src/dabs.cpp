@@ -8,6 +8,7 @@
 #include <pimg/strokes.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -184,4 +185,5 @@ Status collect_dabs(const Hierarchy& h, const DirectionField& field, const DabOp
     return {};
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -9,6 +9,7 @@
 #include <cmath>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -203,4 +204,5 @@ float DirectionField::certainty(Vec2 p) const
     return std::min(1.0f, std::sqrt(d.x * d.x + d.y * d.y));
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -11,6 +11,7 @@
 #include <pimg/strokes.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -189,4 +190,5 @@ void lay_mosaic(const Tiling& tiling, Index tiles, const TileOptions& options, c
     });
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 void append_number(std::string& text, double value, int decimals)
 {
@@ -36,4 +37,5 @@ int byte_of(float value)
     return value > 0.0f ? int(std::lround(255.0f * (value < 1.0f ? value : 1.0f))) : 0;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

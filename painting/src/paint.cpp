@@ -14,6 +14,7 @@
 #include "sketch.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -410,4 +411,5 @@ void light_relief(Canvas& canvas, float strength, const ParallelFor& parallel)
     });
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

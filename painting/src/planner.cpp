@@ -7,6 +7,7 @@
 #include <pimg/detail/elementary.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -125,4 +126,5 @@ Draft Planner::draft(const Site& site, float length) const
     return draft;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -5,6 +5,7 @@
 #include "sketch.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Points of a stroke to either side of its middle: at a step of 0.4 widths enough for 19 widths of length.
 constexpr int kMostPoints = 24;
@@ -53,4 +54,5 @@ private:
     const StrokeOptions& m_options;
 };
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

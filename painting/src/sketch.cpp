@@ -7,6 +7,7 @@
 #include <cmath>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 ShadePicture::ShadePicture(const ChannelsView& guides, const ParallelFor& parallel)
     : m_width(guides.width),
@@ -203,4 +204,5 @@ std::vector<Vec2> Sketch::bare_cells() const
     return bare;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

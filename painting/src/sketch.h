@@ -9,6 +9,7 @@
 #include <pimg/strokes.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// A colour in guide units; channels the guides do not have are 0.
 using Shade = std::array<float, 3>;
@@ -98,4 +99,5 @@ private:
     std::vector<char> m_covered;
 };
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -4,6 +4,7 @@
 #include "number_text.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -76,4 +77,5 @@ std::string strokes_to_json(const Strokes& strokes, const ShownColours& colours,
     return json + "\n]}\n";
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

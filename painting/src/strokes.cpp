@@ -14,6 +14,7 @@
 #include "planner.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -325,4 +326,5 @@ std::vector<std::vector<float>> stroke_colours(const Strokes& strokes, const Cha
     return colours;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

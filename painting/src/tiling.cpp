@@ -9,6 +9,7 @@
 #include <cmath>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -136,4 +137,5 @@ Tiling tiling_of(const std::vector<Index>& labels, int width, int height, Index 
     return tiling;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -8,14 +8,15 @@ from sources import CPP, Finding
 # A room is a folder, or one file by its name without extension, with the rooms it may include beside itself. The
 # longest name that begins a path is its room. A public header belongs to the room of the source of the same name.
 ROOMS = {
-    "core/src/mesh": [],
-    "core/src/sweep": ["core/src/mesh"],
-    "core/src/sampling": ["core/src/mesh"],
-    "core/src/simplify": ["core/src/mesh", "core/src/sweep", "core/src/sampling"],
-    "core/src/pieces": ["core/src/mesh", "core/src/sweep"],
-    "core/src/smoothing": ["core/src/mesh", "core/src/sweep", "core/src/pieces"],
+    "core/abi": [],
+    "core/src/mesh": ["core/abi"],
+    "core/src/sweep": ["core/abi", "core/src/mesh"],
+    "core/src/sampling": ["core/abi", "core/src/mesh"],
+    "core/src/simplify": ["core/abi", "core/src/mesh", "core/src/sweep", "core/src/sampling"],
+    "core/src/pieces": ["core/abi", "core/src/mesh", "core/src/sweep"],
+    "core/src/smoothing": ["core/abi", "core/src/mesh", "core/src/sweep", "core/src/pieces"],
     "codec/include": ["core"],
-    "codec/src/entropy": [],
+    "codec/src/entropy": ["core/abi"],
     "codec/src/raster": ["codec/include", "codec/src/entropy", "core"],
     "codec/src/mesh_layer": ["codec/include", "codec/src/entropy", "core"],
     "codec/src/sequence": ["codec/include", "codec/src/entropy", "codec/src/raster", "codec/src/mesh_layer", "core"],
@@ -61,6 +62,7 @@ ROOMS = {
 LOWEST = {"core": "core/src/mesh", "codec": "codec/include", "filters": "filters/src/base", "painting": "painting",
           "gainmap": "gainmap", "capi": "capi"}
 HEADERS = {
+    "core/include/pimg/abi.h": "core/abi",
     "filters/include/pimg/pimg.hpp": "umbrella",
     "filters/include/pimg/imagebufalgo.h": "filters/src/frame",
 }

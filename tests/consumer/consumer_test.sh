@@ -29,8 +29,20 @@ for program in use_core use_0_1 use_filters use_c; do
     check_version project/$program
 done
 
+echo "== another OpenImageIO than the one it was built with is turned away"
+mkdir -p other
+echo 'set(OpenImageIO_VERSION 9.9.9)' >other/OpenImageIOConfig.cmake
+echo 'add_library(OpenImageIO::OpenImageIO INTERFACE IMPORTED)' >>other/OpenImageIOConfig.cmake
+if "$CMAKE" -S "$here" -B refused -G "$GENERATOR" -DCMAKE_PREFIX_PATH="$PWD/moved" -DOpenImageIO_DIR="$PWD/other" \
+    >refused.log 2>&1; then
+    echo "pimgConfig.cmake took OpenImageIO 9.9.9"
+    exit 1
+fi
+grep -q "pimg::filters was built with OpenImageIO .*, found: '9.9.9'" refused.log || { cat refused.log; exit 1; }
+
 echo "== pkg-config"
 export PKG_CONFIG_PATH="$PWD/moved/$LIBDIR/pkgconfig"
+pkg-config --print-requires pimg | grep -q "^OpenImageIO < "
 [[ $(pkg-config --modversion pimg) == "$VERSION" && $(pkg-config --modversion pimg-c) == "$VERSION" ]]
 # shellcheck disable=SC2046,SC2086  # flags are words
 "$CXX" -std=c++17 $CXXFLAGS "$here/use_core.cpp" -o use_core $(pkg-config --cflags --libs pimg)
@@ -55,3 +67,16 @@ for header in $(grep -L OpenImageIO moved/include/pimg/*.h); do
     "$CXX" -std=c++17 $CXXFLAGS -fsyntax-only -Wall -Wextra -Werror -Imoved/include header.cpp ||
         { echo "not self-contained: $header"; exit 1; }
 done
+
+echo "== machines that there are no libraries for"
+refused() { # a macro, what it is there, what the error says
+    printf '#include <cstdint>\n#undef %s\n#define %s %s\n#include <pimg/abi.h>\n' "$1" "$1" "$2" >machine.cpp
+    # shellcheck disable=SC2086
+    if "$CXX" -std=c++17 $CXXFLAGS -fsyntax-only -w -Imoved/include machine.cpp 2>refused.log; then
+        echo "abi.h: expected an error that says '$3'"
+        exit 1
+    fi
+    grep -q "$3" refused.log || { cat refused.log; exit 1; }
+}
+refused __BYTE_ORDER__ __ORDER_BIG_ENDIAN__ "pimg needs a little-endian machine"
+refused UINTPTR_MAX 0xffffffffu "pimg needs a 64-bit machine"

@@ -23,13 +23,14 @@
 #include <pimg/types.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// The type of a channel's samples. All of them come back with the same bits, NaN payloads, -0 and subnormal numbers
 /// included. uint8, uint16 and uint32 are unsigned whole numbers; half and float32 are IEEE 754 numbers of 16 and 32 bits.
 enum class SampleType : std::uint8_t { uint8 = 0, uint16 = 1, uint32 = 2, half = 3, float32 = 4 };
 
 /// The number of bytes of one sample: 1, 2 or 4.
-std::size_t size_of(SampleType type);
+PIMG_EXPORT std::size_t size_of(SampleType type);
 
 /// A rectangle of pixels. x and y, its upper left pixel, are -2^30 .. 2^30; width and height are 1 .. 2^20.
 struct Window {
@@ -52,7 +53,7 @@ struct Attribute {
 };
 
 /// Everything about a picture except its samples.
-struct PictureDesc {
+struct PIMG_EXPORT PictureDesc {
     Window data;                        ///< data window: where the samples are
     Window display;                     ///< display window: the whole frame; it need not contain or even touch `data`
     std::vector<ChannelDesc> channels;  ///< 1 .. 1024
@@ -81,8 +82,8 @@ using ConstPlane [[deprecated("use ConstStridedChannel")]] = ConstStridedChannel
 using Plane [[deprecated("use StridedChannel")]] = StridedChannel;
 
 /// The channels of a buffer that holds the pixels of the data window row by row, without gaps, pixel_bytes() each.
-std::vector<ConstStridedChannel> interleaved(const PictureDesc& desc, const void* pixels);
-std::vector<StridedChannel> interleaved(const PictureDesc& desc, void* pixels);
+PIMG_EXPORT std::vector<ConstStridedChannel> interleaved(const PictureDesc& desc, const void* pixels);
+PIMG_EXPORT std::vector<StridedChannel> interleaved(const PictureDesc& desc, void* pixels);
 
 // ---- write ----------------------------------------------------------------------------------------------------------
 
@@ -121,8 +122,8 @@ struct EncodeStats {
 /// options always give the same bytes. Fails on descriptions and options outside the ranges above, on a hierarchy of
 /// another picture, when memory runs out, and when options.progress asked to stop; `file` is then unchanged. `stats` may
 /// be null.
-Status encode(const PictureDesc& desc, const std::vector<ConstStridedChannel>& samples, const EncodeOptions& options,
-              std::vector<std::uint8_t>& file, EncodeStats* stats = nullptr);
+PIMG_EXPORT Status encode(const PictureDesc& desc, const std::vector<ConstStridedChannel>& samples,
+                          const EncodeOptions& options, std::vector<std::uint8_t>& file, EncodeStats* stats = nullptr);
 
 // ---- read -----------------------------------------------------------------------------------------------------------
 
@@ -138,7 +139,7 @@ struct DecodeLimits {
 };
 
 /// Random access to the bytes of a file. If a Decoder is used from several threads, so is read().
-class Source {
+class PIMG_EXPORT Source {
 public:
     virtual ~Source() = default;
     virtual std::uint64_t size() const = 0;
@@ -148,10 +149,10 @@ public:
 };
 
 /// A source of `size` bytes of memory. The caller keeps the memory alive as long as the source.
-std::shared_ptr<const Source> memory_source(const void* data, std::size_t size);
+PIMG_EXPORT std::shared_ptr<const Source> memory_source(const void* data, std::size_t size);
 
 /// Whether the first bytes of a file are those of a .pimg file. `size` is how many there are; 8 are enough.
-bool is_pimg(const void* data, std::size_t size);
+PIMG_EXPORT bool is_pimg(const void* data, std::size_t size);
 
 /// One chunk of a file.
 struct ChunkInfo {
@@ -170,7 +171,7 @@ struct ReadInfo {
 
 /// Reads one file. After open(), all methods are const and may be called from several threads at once. All but open() and
 /// is_open() need an open file.
-class Decoder {
+class PIMG_EXPORT Decoder {
 public:
     Decoder();
     ~Decoder();
@@ -225,4 +226,5 @@ private:
     std::unique_ptr<File> m_file;
 };
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

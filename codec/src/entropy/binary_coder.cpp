@@ -2,6 +2,7 @@
 #include "entropy/binary_coder.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 void BinaryWriter::bit(AdaptiveBit& model, bool value)
 {
@@ -113,4 +114,5 @@ std::uint32_t NumberModel::read(BinaryReader& in)
     return value;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -9,6 +9,7 @@
 #include "entropy/bytes.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Estimate of the probability of a 0, in 1/32768. Learns fast at first.
 struct AdaptiveBit {
@@ -107,4 +108,5 @@ inline int bit_length(std::uint32_t v)
     return v == 0 ? 0 : 32 - __builtin_clz(v);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

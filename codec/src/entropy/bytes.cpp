@@ -8,6 +8,7 @@
 #include <zstd.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 void put_u16(Bytes& out, std::uint32_t v)
 {
@@ -213,4 +214,5 @@ bool zstd_unpack(const std::uint8_t* data, std::size_t packed, std::uint8_t* out
     return ZSTD_decompress(out, size, data, packed) == size;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -7,7 +7,10 @@
 #include <string>
 #include <vector>
 
+#include <pimg/abi.h>
+
 namespace pimg {
+inline namespace PIMG_ABI {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -83,4 +86,5 @@ private:
 bool zstd_pack(const void* data, std::size_t size, int level, Bytes& out);
 bool zstd_unpack(const std::uint8_t* data, std::size_t packed, std::uint8_t* out, std::size_t size);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

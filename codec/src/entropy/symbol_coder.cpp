@@ -7,6 +7,7 @@
 #include "entropy/binary_coder.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 std::uint32_t log2_fixed(std::uint32_t v)
 {
@@ -298,4 +299,5 @@ bool SymbolReader::finished() const
         && c.raw_size * 8 - c.bit < 8;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -11,6 +11,7 @@
 #include "entropy/bytes.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 // Sizes of the tables: docs/format.md, section 3.2.
 constexpr int kProbabilityBits = 11;
@@ -147,4 +148,5 @@ private:
 /// on a machine's mathematics.
 std::uint32_t log2_fixed(std::uint32_t v);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -6,6 +6,7 @@
 #include <pimg/detail/pixel_span.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 std::vector<Triangle> ordered_triangles(const Mesh& mesh)
 {
@@ -196,4 +197,5 @@ void fill(const Mesh& mesh, const std::vector<Triangle>& triangles, IndexRun num
     }
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -8,6 +8,7 @@
 #include <pimg/mesh.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// The mesh layer: a coarse mesh and the values of each channel at its vertices (at most 18 bits).
 struct MeshLayer {
@@ -77,4 +78,5 @@ struct SamplePoints {
 void fill(const Mesh& mesh, const std::vector<Triangle>& triangles, IndexRun numbers,
           const std::vector<std::int32_t>& values, int shift, const SamplePoints& points, std::int32_t* samples);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -7,6 +7,7 @@
 #include <pimg/detail/projection.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 CanonicalRing::CanonicalRing(const Mesh& mesh, Index s)
 {
@@ -226,4 +227,5 @@ Status MeshLayerReader::read_batches(const std::uint8_t* data, std::size_t size)
     return {};
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

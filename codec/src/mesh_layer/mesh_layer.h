@@ -15,6 +15,7 @@
 #include "mesh_layer/gouraud.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Values of the mesh layer stay within +-2^17.
 constexpr std::int32_t kMeshValueLow = -(1 << 17), kMeshValueHigh = (1 << 17) - 1;
@@ -119,4 +120,5 @@ struct MeshLayerChunks {
 Status write_mesh_layer(const Hierarchy& hierarchy, const std::vector<Bands>& bands, double vertices,
                         MeshLayerChunks& chunks);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

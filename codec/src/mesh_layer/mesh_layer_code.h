@@ -9,6 +9,7 @@
 #include "mesh_layer/mesh_layer.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 struct LayerOutput {
     static constexpr bool kWriting = true;
@@ -108,4 +109,5 @@ void code_values(Io& io, MeshModels& models, const MeshLayerHead& head, MeshLaye
     }
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -8,6 +8,7 @@
 #include "mesh_layer/mesh_layer_code.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -349,4 +350,5 @@ Status write_mesh_layer(const Hierarchy& h, const std::vector<Bands>& bands, dou
     return {};
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -8,6 +8,7 @@
 #include "entropy/symbol_coder.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -228,4 +229,5 @@ bool TileChannelReader::read(const TileChannel& channel)
     return m_symbols.finished();
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

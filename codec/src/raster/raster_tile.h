@@ -9,6 +9,7 @@
 #include "entropy/symbol_coder.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// How a sample is predicted from its neighbours W, N, NW and NE.
 enum class Shape : std::uint8_t { none = 0, left = 1, median = 2, mean = 3 };
@@ -54,4 +55,5 @@ private:
     Bytes m_bytes;
 };
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -5,6 +5,7 @@
 #include <cstring>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 std::size_t size_of(SampleType type)
 {
@@ -326,4 +327,5 @@ std::uint64_t hash_samples(const PictureDesc& desc, const std::vector<ConstStrid
     return hash.value();
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

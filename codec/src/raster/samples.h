@@ -10,6 +10,7 @@
 #include "entropy/bytes.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Reversible transforms of the first three channels.
 constexpr std::size_t kTransformChannels = 3;  ///< the first so many are transformed together
@@ -52,4 +53,5 @@ void scatter(SampleType type, std::vector<std::int32_t>& integers, std::uint32_t
 /// XXH64 of all samples: rows top down, pixels left to right, channels in order, each little-endian.
 std::uint64_t hash_samples(const PictureDesc& desc, const std::vector<ConstStridedChannel>& channels);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -13,6 +13,7 @@
 #include "entropy/symbol_coder.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// A ring in a cache line of its own.
 struct alignas(64) AlignedRing : Ring { };
@@ -108,4 +109,5 @@ inline DiagonalGuess guess_diagonal(const std::int32_t* p, int width)
     return { class_of(std::uint32_t(gap)), down <= up };
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -14,6 +14,7 @@
 #include "sequence/initial_mesh_code.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -418,4 +419,5 @@ Status read_collapse_sequence(const std::vector<ByteSpan>& chunks, int width, in
     return SequenceReader(width, height, channels).run(chunks, guide, hierarchy, bands);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -12,6 +12,7 @@
 #include "sequence/collapse_mesh.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 std::vector<std::int32_t> diagonal_guide(const PictureDesc& desc, const std::vector<ConstStridedChannel>& samples)
 {
@@ -189,4 +190,5 @@ CollapseClasses collapse_classes(Point t, Point u, Point extent)
     return c;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

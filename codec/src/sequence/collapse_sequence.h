@@ -14,6 +14,7 @@
 #include "entropy/bytes.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 struct CollapseChunks {
     std::vector<Bytes> chunks;
@@ -38,4 +39,5 @@ Status read_collapse_sequence(const std::vector<ByteSpan>& chunks, int width, in
                               const std::vector<std::int32_t>& guide, const std::vector<const float*>& channels,
                               Hierarchy& hierarchy, std::vector<Bands>& bands);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

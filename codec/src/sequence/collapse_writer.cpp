@@ -11,6 +11,7 @@
 #include "sequence/initial_mesh_code.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -280,4 +281,5 @@ Status write_collapse_sequence(const Hierarchy& h, const PictureDesc& desc,
     }
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -11,6 +11,7 @@
 #include <pimg/detail/delaunay.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -383,4 +384,5 @@ bool read_initial_mesh(const std::uint8_t* data, std::size_t size, const std::ve
     return Walk<Input>(Input { { in } }, guide, mesh, nullptr).run();
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -13,6 +13,7 @@
 #include "sequence/collapse_mesh.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Writes the finest mesh of `h` and connects `mesh` the way reading will. `guide` is diagonal_guide().
 Bytes write_initial_mesh(const Hierarchy& h, const Mesh& finest, const std::vector<std::int32_t>& guide,
@@ -22,4 +23,5 @@ Bytes write_initial_mesh(const Hierarchy& h, const Mesh& finest, const std::vect
 bool read_initial_mesh(const std::uint8_t* data, std::size_t size, const std::vector<std::int32_t>& guide,
                        CollapseMesh& mesh);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

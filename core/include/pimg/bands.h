@@ -7,9 +7,12 @@
 #include <algorithm>
 #include <vector>
 
+#include <hwy/cache_control.h>
+
 #include <pimg/hierarchy.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// The details of one split: the intensity of t minus what the coarser mesh predicts at its place, and the same for u.
 struct Detail {
@@ -19,7 +22,7 @@ struct Detail {
 /// One channel on a hierarchy, in the channel's own units. `base[v]` is the value of base vertex v, and `details[i]`
 /// belongs to split i. `residual` is the finest band: for each mesh pixel, the channel minus what the finest mesh
 /// interpolates there. It is empty when every pixel is a vertex, and then counts as 0 everywhere.
-struct Bands {
+struct PIMG_EXPORT Bands {
     std::vector<float> base;
     std::vector<Detail> details;
     std::vector<float> residual;
@@ -33,20 +36,21 @@ struct Bands {
 /// volume under the surface, as they do for the guide, so every M_i has the channel's mean. This takes the mesh of every
 /// level; all splits are replayed, once for all channels together. Synthesis with unchanged details returns the samples
 /// to within one rounding. Fails only on a damaged hierarchy.
-Status analyse(const Hierarchy& hierarchy, const std::vector<const float*>& channels, std::vector<Bands>& bands,
-               const ParallelFor& parallel = {});
+PIMG_EXPORT Status analyse(const Hierarchy& hierarchy, const std::vector<const float*>& channels,
+                           std::vector<Bands>& bands, const ParallelFor& parallel = {});
 
 /// Copies a picture's samples (row-major, width x height) to mesh pixels (row-major, mesh_width() x mesh_height()). They
 /// are the same samples, but for pictures one pixel wide or high, whose only column or row is repeated.
-std::vector<float> to_mesh_pixels(const Hierarchy& hierarchy, const float* samples);
+PIMG_EXPORT std::vector<float> to_mesh_pixels(const Hierarchy& hierarchy, const float* samples);
 
 /// Makes M_i of level i = `level` the base mesh, and drops the splits before it. `level` is 0 .. levels(). Fails only on
 /// a damaged hierarchy; nothing is then changed.
-Status rebase(Hierarchy& hierarchy, std::vector<Bands>& bands, Level level, const ParallelFor& parallel = {});
+PIMG_EXPORT Status rebase(Hierarchy& hierarchy, std::vector<Bands>& bands, Level level,
+                          const ParallelFor& parallel = {});
 
 /// The values of all vertices of M_i of level i = `level`, indexed by vertex number. A level above the finest counts as
 /// the finest.
-std::vector<float> values_at(const Hierarchy& hierarchy, const Bands& bands, Level level);
+PIMG_EXPORT std::vector<float> values_at(const Hierarchy& hierarchy, const Bands& bands, Level level);
 
 /// Computes the values of all vertices of level `levels`, in one pass from coarse to fine over the first `levels` splits.
 /// gain(i, detail) returns the detail to use for split i. `values` has room for base_vertices() + levels floats;
@@ -61,14 +65,16 @@ void sweep_splits(const Hierarchy& hierarchy, Level first, Level last, float* va
 
 /// Makes the channel's samples from its bands, unchanged: sweeps to the finest level, writes the values to the mesh pixels
 /// (row-major) and adds the residual.
-void synthesise(const Hierarchy& hierarchy, const Bands& bands, float* samples, const ParallelFor& parallel = {});
+PIMG_EXPORT void synthesise(const Hierarchy& hierarchy, const Bands& bands, float* samples,
+                            const ParallelFor& parallel = {});
 
 /// Writes values of the finest level, one per vertex, to the mesh pixels (row-major), and interpolates the pixels that are
 /// no vertex.
-void scatter(const Hierarchy& hierarchy, const float* values, float* samples, const ParallelFor& parallel = {});
+PIMG_EXPORT void scatter(const Hierarchy& hierarchy, const float* values, float* samples,
+                         const ParallelFor& parallel = {});
 
 /// The second half of scatter(): `samples` holds the values of the pixels that are vertices; the others are interpolated.
-void interpolate_between(const Hierarchy& hierarchy, float* samples, const ParallelFor& parallel = {});
+PIMG_EXPORT void interpolate_between(const Hierarchy& hierarchy, float* samples, const ParallelFor& parallel = {});
 
 /// Adds gain(pixel, residual) to the sample of every mesh pixel. Does nothing if there is no residual.
 template<class Gain>
@@ -92,7 +98,7 @@ void sweep_splits(const Hierarchy& hierarchy, Level first, Level last, float* va
         if (i + kAhead < last) {  // where values are is the only thing in no order in memory
             const Stencil& later = stencil[i + kAhead];
             for (const Index v : { later.s, later.at, later.bt, later.au, later.bu })
-                __builtin_prefetch(values + v);
+                hwy::Prefetch(values + v);
         }
         const Stencil& k = stencil[i];
         const SplitPair predicted = predict(k, values);
@@ -110,4 +116,5 @@ void add_residual(const Bands& bands, float* samples, Gain&& gain)
         samples[p] += gain(Index(p), bands.residual[p]);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -6,7 +6,10 @@
 
 #include <vector>
 
+#include <pimg/abi.h>
+
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// One channel that knows its size in pixels.
 struct Raster {
@@ -26,4 +29,5 @@ struct ChannelsView {
 
 using Rasters [[deprecated("use Channels")]] = Channels;
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

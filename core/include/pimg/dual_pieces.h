@@ -10,6 +10,7 @@
 #include <pimg/types.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// The pieces of all levels of one hierarchy, stored in three numbers per vertex and two per pixel.
 ///
@@ -27,7 +28,7 @@ namespace pimg {
 /// A piece is connected along the edges of the finest mesh. With a vertex for every pixel, these are the sides of pixels
 /// and one diagonal of every square of four pixels. A piece may therefore consist of several 4-connected parts;
 /// connected_parts() gives these numbers of their own.
-class DualPieces {
+class PIMG_EXPORT DualPieces {
 public:
     DualPieces() = default;
 
@@ -84,15 +85,15 @@ struct Border {
 };
 
 /// All borders of a label image (row-major, width x height), sorted by a, then by b.
-std::vector<Border> borders(const std::vector<Index>& labels, int width, int height);
+PIMG_EXPORT std::vector<Border> borders(const std::vector<Index>& labels, int width, int height);
 
 /// Replaces labels by numbers of connected parts: every 4-connected part of every label gets a number of its own, from 0
 /// in the order of the parts' first pixels (row-major). Returns how many parts there are.
-Index connected_parts(std::vector<Index>& labels, int width, int height);
+PIMG_EXPORT Index connected_parts(std::vector<Index>& labels, int width, int height);
 
 /// The mean of a channel over each label 0 .. count - 1; 0 for a label without pixels. `samples` are finite, one per entry
 /// of `labels`.
-std::vector<float> label_means(const std::vector<Index>& labels, Index count, const float* samples);
+PIMG_EXPORT std::vector<float> label_means(const std::vector<Index>& labels, Index count, const float* samples);
 
 /// A centre of gravity, in pixels.
 struct Centroid {
@@ -100,6 +101,7 @@ struct Centroid {
 };
 
 /// The centre of gravity of each label 0 .. count - 1; (0, 0) for a label without pixels. `width` is that of the picture.
-std::vector<Centroid> label_centroids(const std::vector<Index>& labels, Index count, int width);
+PIMG_EXPORT std::vector<Centroid> label_centroids(const std::vector<Index>& labels, Index count, int width);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -4,7 +4,10 @@
 
 #include <vector>
 
+#include <pimg/abi.h>
+
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// The most channels a guide may have.
 constexpr int kMaxGuideChannels = 16;
@@ -25,4 +28,5 @@ struct Guide {
     std::vector<GuideChannel> channels;
 };
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -11,6 +11,7 @@
 #include <pimg/types.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// One vertex split. Split i divides vertex s into t, which keeps the number of s, and u, which gets the number
 /// base_vertices() + i. So the vertices of level i are those with numbers below base_vertices() + i.
@@ -65,7 +66,7 @@ using Level = Index;
 
 /// Base mesh, splits and stencils of one picture. Splits are stored from coarse to fine, and `stencils` and `costs` have
 /// one entry per split.
-class Hierarchy {
+class PIMG_EXPORT Hierarchy {
 public:
     int width = 0, height = 0;             ///< size of the picture in pixels
     std::vector<Point> base_points;        ///< positions of the base vertices
@@ -102,14 +103,15 @@ public:
 /// Makes the mesh M_i of level i = `level` by applying the first `level` splits to the base mesh. A level above the finest
 /// counts as the finest. If `coarse` is not null, it receives the position that the vertex s of each of these splits had
 /// before the split. Fails only on a damaged hierarchy; `mesh` is then unchanged.
-Status refine(const Hierarchy& hierarchy, Level level, Mesh& mesh, std::vector<Point>* coarse = nullptr);
+PIMG_EXPORT Status refine(const Hierarchy& hierarchy, Level level, Mesh& mesh, std::vector<Point>* coarse = nullptr);
 
 /// Computes `between` from the other members. Files do not store it, so whoever reads a hierarchy from a file calls
 /// this afterwards. Fails only on a damaged hierarchy.
-Status find_pixels_between(Hierarchy& hierarchy);
+PIMG_EXPORT Status find_pixels_between(Hierarchy& hierarchy);
 
 /// Checks a hierarchy: all its numbers, every stencil against the mesh it belongs to, and the finest mesh. For that it
 /// replays every split, which is slow; it is meant for tests and tools. The message names what is wrong.
-Status validate(const Hierarchy& hierarchy);
+PIMG_EXPORT Status validate(const Hierarchy& hierarchy);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -19,6 +19,7 @@
 #include <pimg/types.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// A triangle by the numbers of its three vertices, positively oriented (doubled_area() in types.h is above 0).
 using Triangle = std::array<Index, 3>;
@@ -34,7 +35,7 @@ struct RingView {
 
 /// A triangulation of the rectangle between the centres of the picture's four corner pixels, [0, width-1] x
 /// [0, height-1]. Vertices are numbered 0 .. size()-1, and all of these numbers are in use.
-class Mesh {
+class PIMG_EXPORT Mesh {
 public:
     Mesh() = default;
 
@@ -85,4 +86,5 @@ private:
     Point m_extent;
 };
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

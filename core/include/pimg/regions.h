@@ -10,6 +10,7 @@
 #include <pimg/types.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// What the cost of a border depends on. For regions of n1 and n2 pixels whose mean colours have the distance D, with a
 /// common border of l pixel sides along which the gradient has the mean strength E, the cost is
@@ -38,7 +39,7 @@ struct [[deprecated("use a ChannelsView and RegionOptions::pieces")]] RegionInpu
 
 /// The merges of a picture's pieces. All regions are 4-connected, and a region is a union of regions of any larger number
 /// of regions.
-class RegionTree {
+class PIMG_EXPORT RegionTree {
 public:
     /// Merges the pieces of `picture`, which has 1 to 64 channels of finite samples and at most 2^30 pixels. How different
     /// two pixels look is measured by the Euclidean distance of their samples. The defaults are meant for CIELAB, where
@@ -84,4 +85,5 @@ private:
     std::vector<float> m_costs;
 };
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -8,6 +8,7 @@
 #include <pimg/types.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// The most neighbours a vertex may have, the ghost vertex included. A collapse that would exceed it is refused, which
 /// happens to less than 0.01 % of the collapses.
@@ -21,4 +22,5 @@ struct Ring {
     std::array<Index, kMaxDegree> v;
 };
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

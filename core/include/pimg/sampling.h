@@ -12,6 +12,7 @@
 #include <pimg/types.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// What the density of vertices follows: a weighted sum over the guide's channels of
 enum class Control {
@@ -49,28 +50,29 @@ struct InitialMesh {
 /// The control map of a guide: for each pixel, row-major, the square root of what `control` names. Only ratios of its
 /// values matter. The root is taken because the error of an interpolation grows with the first power of a difference;
 /// docs/adaptive.md compares the exponents.
-std::vector<float> control_map(const Guide& guide, Control control, const ParallelFor& parallel = {});
+PIMG_EXPORT std::vector<float> control_map(const Guide& guide, Control control, const ParallelFor& parallel = {});
 
 /// Replaces a control map by the probability, 0..1, that each pixel becomes a vertex. This is a small share that is the
 /// same everywhere (a tenth of `density`) plus a share proportional to the map, cut at 1, and scaled so that the mean of
 /// all is `density`. Values that are negative or not a number count as 0.
-void to_density(std::vector<float>& map, double density, const ParallelFor& parallel = {});
+PIMG_EXPORT void to_density(std::vector<float>& map, double density, const ParallelFor& parallel = {});
 
 /// Chooses pixels by such probabilities (row-major, width x height), with Floyd and Steinberg's error diffusion, whose
 /// direction changes from row to row. The four corners are always chosen. Pixels on the picture's sides are chosen with
 /// the square root of their probability, so that vertices along a side are as close to each other as those inside.
 /// Returns the pixels, increasing.
-std::vector<Index> halftone(const std::vector<float>& probability, int width, int height);
+PIMG_EXPORT std::vector<Index> halftone(const std::vector<float>& probability, int width, int height);
 
 /// The Delaunay triangulation of chosen pixels of the guide: increasing, the four corners among them. It is computed in
 /// exact arithmetic. Where four or more pixels lie on one circle, the diagonal along which the guide changes less is
 /// taken. Vertices with more than kMaxDegree neighbours lose some by edge flips; where no flip is possible, further
 /// pixels near such a vertex become vertices.
-InitialMesh triangulate(std::vector<Index> pixels, const Guide& guide);
+PIMG_EXPORT InitialMesh triangulate(std::vector<Index> pixels, const Guide& guide);
 
 /// Does all of the above: chooses the pixels of a guide and triangulates them. Fails when the guide is smaller than
 /// 2 x 2 pixels or has no channels, when the density is out of range, when more than 7e8 pixels would be chosen, and when
 /// `progress` asked to stop.
-Status sample(const Guide& guide, const SamplingOptions& options, InitialMesh& mesh);
+PIMG_EXPORT Status sample(const Guide& guide, const SamplingOptions& options, InitialMesh& mesh);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

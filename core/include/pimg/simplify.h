@@ -13,6 +13,7 @@
 #include <pimg/types.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// What a collapse costs, and where it puts the vertex. The last two are slower and give worse meshes; they are there for
 /// comparison (paper, Fig. 2). They use one thread, can only start from one vertex per pixel, and do not preserve the
@@ -52,7 +53,8 @@ struct SimplifyStats {
 /// Fails on a guide that is empty, larger than 2^20 pixels a side or 2^31 in all, or has too many channels, a channel
 /// without samples or a weight that is not above 0; on a mesh to start from that is damaged or of another size; and when
 /// `progress` asked to stop. `stats` may be null.
-Status simplify(const Guide& guide, SimplifyOptions options, Hierarchy& hierarchy, std::vector<Bands>& bands,
-                SimplifyStats* stats = nullptr);
+PIMG_EXPORT Status simplify(const Guide& guide, SimplifyOptions options, Hierarchy& hierarchy,
+                            std::vector<Bands>& bands, SimplifyStats* stats = nullptr);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -19,12 +19,13 @@
 #include <pimg/hierarchy.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 class SweepPlan;
 
 /// What smoothing needs to know of a picture. It is computed once; each strength then takes one sweep and a few steps of
 /// diffusion.
-struct SmoothingSource {
+struct PIMG_EXPORT SmoothingSource {
     Channels samples;                 ///< one to four channels, each with a finite value per mesh pixel, row-major
     std::vector<PieceMeans> means;    ///< of each channel
     std::vector<SplitPair> evidence;  ///< squares of the sizes in pixels of the pieces of t and u, for each split
@@ -37,7 +38,7 @@ struct SmoothingSource {
 
 /// Makes a SmoothingSource of one to four channels with a finite value per mesh pixel. The channels are smoothed
 /// together: what stays in one of them stays in all.
-SmoothingSource analyse_for_smoothing(const Hierarchy& hierarchy, Channels samples);
+PIMG_EXPORT SmoothingSource analyse_for_smoothing(const Hierarchy& hierarchy, Channels samples);
 
 struct SmoothingOptions {
     float strength = 0.03f;  ///< in units of the samples, 0 or more; 0 changes nothing
@@ -48,25 +49,27 @@ struct SmoothingOptions {
 /// channels. Small things need more contrast to stay, and large ones less: features are told from texture by their
 /// volume, that is contrast times pixels, which is also the measure that the hierarchy was built by. A strength of 0 or
 /// less returns the samples unchanged. `result` has the shape of source.samples.
-void smooth(const Hierarchy& hierarchy, const SmoothingSource& source, const SmoothingOptions& options,
-            Channels& result);
+PIMG_EXPORT void smooth(const Hierarchy& hierarchy, const SmoothingSource& source, const SmoothingOptions& options,
+                        Channels& result);
 
 /// The first half of smooth(). From coarse to fine, each vertex gets the value that the coarser vertices predict, plus a
 /// share of how much the mean of its piece deviates from this. The share is near 1 if that deviation times the size of
 /// the piece is well above 8 pixels times `strength`, 1/2 if it is equal to it, and near 0 below. The prediction is made
 /// from values that were reduced in this way, so a feature that coarser levels lost comes back at the first finer level
 /// that shows it clearly. `features` receives one value per mesh pixel and channel.
-void feature_sweep(const Hierarchy& hierarchy, const SmoothingSource& source, float strength, Channels& features);
+PIMG_EXPORT void feature_sweep(const Hierarchy& hierarchy, const SmoothingSource& source, float strength,
+                               Channels& features);
 
 /// Amplifies what smooth() removes: samples + (gain - 1) (samples - smoothed), less on edges. Where the smoothed picture
 /// has the gradient g, in multiples of the strength per pixel, only the share 1 / (1 + 4 g^2)^2 of this is added. This
 /// keeps halos at an edge below 1 % of its height, and soft edges from reversing.
-void enhance(const Hierarchy& hierarchy, const SmoothingSource& source, const SmoothingOptions& options, float gain,
-             Channels& result);
+PIMG_EXPORT void enhance(const Hierarchy& hierarchy, const SmoothingSource& source, const SmoothingOptions& options,
+                         float gain, Channels& result);
 
 /// Estimates the standard deviation of a picture's noise, in units of its samples, as the root mean square over the
 /// channels. It assumes white noise, and takes the median of the absolute mixed second differences. A small multiple of
 /// it is a good strength for smooth(). Returns 0 for pictures of fewer than 2 x 2 pixels.
-float noise_level(const Channels& samples, int width, int height);
+PIMG_EXPORT float noise_level(const Channels& samples, int width, int height);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -9,7 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include <pimg/abi.h>
+
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// The number of a vertex, a split or a pixel. Pictures have at most 2^31 pixels, so 32 bits are enough.
 using Index = std::uint32_t;
@@ -67,4 +70,5 @@ using ParallelFor = std::function<void(std::size_t n, const std::function<void(s
 /// function that does it fails. It is always called on the thread that started the work.
 using Progress = std::function<bool(float done)>;
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

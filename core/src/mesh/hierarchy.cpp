@@ -9,6 +9,7 @@
 #include <pimg/detail/stop.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 Level Hierarchy::level_of_vertices(double count) const
 {
@@ -175,4 +176,5 @@ Status validate(const Hierarchy& h)
     return mesh.validate();
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

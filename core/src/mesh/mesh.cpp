@@ -6,6 +6,7 @@
 #include <map>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 Status Mesh::from_triangles(std::vector<Point> points, const std::vector<Triangle>& triangles, Point extent, Mesh& mesh)
 {
@@ -230,4 +231,5 @@ void Mesh::reserve(std::size_t vertices)
     m_degrees.reserve(vertices);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -121,4 +122,5 @@ std::vector<PixelStencil> pixel_stencils(int width, int height, const std::vecto
     return stencils;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -2,6 +2,7 @@
 #include <pimg/detail/projection.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 Projection project(Point p, Point s, int degree, const Index* ring, const Point* points)
 {
@@ -11,4 +12,5 @@ Projection project(Point p, Point s, int degree, const Index* ring, const Point*
     return projection(face, ring, doubled_area(s, points[face.a], points[face.b]));
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

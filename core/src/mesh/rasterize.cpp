@@ -8,6 +8,7 @@
 #include <cmath>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -145,4 +146,5 @@ std::vector<float> wireframe(const Mesh& mesh, float line_width, int scale)
     return coverage;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -4,6 +4,7 @@
 #include <utility>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -68,4 +69,5 @@ std::unique_lock<std::mutex> lock_or_stop(std::mutex& mutex)
     return lock;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

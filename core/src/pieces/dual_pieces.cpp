@@ -8,6 +8,7 @@
 #include <pimg/detail/stop.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -226,4 +227,5 @@ std::vector<Centroid> label_centroids(const std::vector<Index>& labels, Index co
     return result;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -3,6 +3,7 @@
 #include <pimg/detail/stop.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -79,4 +80,5 @@ PieceMeans piece_means(const Hierarchy& h, const float* samples)
     return means;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

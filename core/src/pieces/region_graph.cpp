@@ -2,6 +2,7 @@
 #include "pieces/region_graph.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 void RegionGraph::reserve(std::size_t borders)
 {
@@ -65,4 +66,5 @@ void RegionGraph::merge(Index kept, Index gone)
     m_mark[gone] = kGhost;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

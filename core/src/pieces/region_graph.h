@@ -8,6 +8,7 @@
 #include <pimg/types.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Borders in both directions: half-border h leads to `to[h]`, h ^ 1 leads back. Those that leave a region form a ring.
 /// A shared border is one object, so merging two regions moves links and copies nothing.
@@ -46,4 +47,5 @@ private:
     std::vector<Index> m_mark;  ///< half-border from the region being merged to each neighbour
 };
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -14,6 +14,7 @@
 #include "pieces/region_graph.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -396,4 +397,5 @@ Index RegionTree::regions_above(float threshold) const
     return m_leaves - Index(end - m_costs.begin());
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

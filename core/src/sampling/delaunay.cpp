@@ -12,6 +12,7 @@
 #include "sampling/guide_jump.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -403,4 +404,5 @@ void triangulate_delaunay(InitialMesh& mesh, const Guide& guide)
     Sweep(mesh, guide).run();
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -6,6 +6,7 @@
 #include <pimg/types.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// The weighted squared differences of all channels between mesh pixels p and q.
 inline float squared_jump(const Guide& guide, Index p, Index q)
@@ -23,4 +24,5 @@ inline bool is_falling(const Guide& guide, Index p)
     return squared_jump(guide, p, below + 1) <= squared_jump(guide, p + 1, below);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -10,6 +10,7 @@
 #include <pimg/detail/delaunay.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -286,4 +287,5 @@ Status sample(const Guide& guide, const SamplingOptions& options, InitialMesh& m
     return go_on(1.0f) ? Status() : Status::failure("building was stopped");
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

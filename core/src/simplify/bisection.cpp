@@ -13,6 +13,7 @@
 #include "simplify/key_sort.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -335,4 +336,5 @@ void Bisection::remove(const Removal& r, CollapseRecord& record, SplitPair* more
         m_spots[vl].reach[std::size_t(turned(r.direction + 2))] = 0;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -26,6 +26,7 @@
 #include "simplify/collapse_record.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// How far the first stage goes.
 struct BisectionLimits {
@@ -100,4 +101,5 @@ private:
     std::vector<float> m_more;  ///< intensities in the other channels, vertex by vertex
 };
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -17,6 +17,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace pimg {
+inline namespace PIMG_ABI {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -369,6 +370,7 @@ HWY_INLINE float edge_cost_at(const EdgeFan& f, int j, float x, float y)
 }
 
 }  // namespace HWY_NAMESPACE
+}  // namespace PIMG_ABI
 }  // namespace pimg
 HWY_AFTER_NAMESPACE();
 

@@ -20,6 +20,7 @@
 #include <pimg/simplify.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Lanes of a fan: one neighbour each, in ring order. Computed eight at a time.
 constexpr int kLanes = kMaxDegree;
@@ -92,4 +93,5 @@ struct alignas(64) EdgeFan {
     ChannelFan more[kMaxGuideChannels - 1];
 };
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

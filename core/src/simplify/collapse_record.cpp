@@ -11,6 +11,7 @@
 #include "simplify/key_sort.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -180,4 +181,5 @@ Status assemble(int width, int height, const Finest& finest, CollapseSequence&& 
     return status;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

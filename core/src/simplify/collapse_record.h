@@ -12,6 +12,7 @@
 #include <pimg/detail/flat_array.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// One edge collapse; records are in the order in which collapses were done. Vertices are identified by names: the
 /// number of the mesh pixel, or of the vertex of the initial mesh, that a vertex started as. s keeps the name of t.
@@ -53,4 +54,5 @@ struct Finest {
 Status assemble(int width, int height, const Finest& finest, CollapseSequence&& sequence, Index base_faces,
                 Hierarchy& hierarchy, std::vector<Bands>& bands);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

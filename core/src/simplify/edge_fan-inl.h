@@ -13,6 +13,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace pimg {
+inline namespace PIMG_ABI {
 namespace HWY_NAMESPACE {
 
 using Integers = hn::RebindToSigned<Lanes>;
@@ -195,6 +196,7 @@ HWY_INLINE void load_sums(const WorkingMesh& mesh, const Index* ring, const Neig
 }
 
 }  // namespace HWY_NAMESPACE
+}  // namespace PIMG_ABI
 }  // namespace pimg
 HWY_AFTER_NAMESPACE();
 

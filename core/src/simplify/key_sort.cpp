@@ -6,6 +6,7 @@
 #include <pimg/detail/parallel.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -53,4 +54,5 @@ std::vector<Index> sorted(FlatArray<KeyedIndex>&& items, const ParallelFor& para
     return by_key;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -10,6 +10,7 @@
 #include <pimg/types.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// An index and the bits of a float that is not negative, which are ordered like the floats.
 struct KeyedIndex {
@@ -22,4 +23,5 @@ struct KeyedIndex {
 /// The indices by increasing key; those of equal keys stay in the order of `items`.
 std::vector<Index> sorted(FlatArray<KeyedIndex>&& items, const ParallelFor& parallel);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -17,6 +17,7 @@
 #include "simplify/working_mesh.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -277,4 +278,5 @@ Status simplify(const Guide& guide, SimplifyOptions options, Hierarchy& hierarch
     return assemble(guide.width, guide.height, finest, std::move(sequence), options.base_faces, hierarchy, bands);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -15,6 +15,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace pimg {
+inline namespace PIMG_ABI {
 namespace HWY_NAMESPACE {
 
 /// The star s will have: ring of t from vr to vl, then that of u back to vr. Places are relative to t.
@@ -308,6 +309,7 @@ HWY_INLINE void apply(const Star& star, Changes& changes, const EdgeFan& fan, co
 }
 
 }  // namespace HWY_NAMESPACE
+}  // namespace PIMG_ABI
 }  // namespace pimg
 HWY_AFTER_NAMESPACE();
 

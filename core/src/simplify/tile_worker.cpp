@@ -17,6 +17,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace pimg {
+inline namespace PIMG_ABI {
 namespace HWY_NAMESPACE {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -296,11 +297,13 @@ void start_tile(WorkingMesh& mesh, const Tile& tile)
 }
 
 }  // namespace HWY_NAMESPACE
+}  // namespace PIMG_ABI
 }  // namespace pimg
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace pimg {
+inline namespace PIMG_ABI {
 
 HWY_EXPORT(collapse_tile);
 HWY_EXPORT(collapse_listed);
@@ -321,5 +324,6 @@ void start_tile(WorkingMesh& mesh, const Tile& tile)
     HWY_DYNAMIC_DISPATCH(start_tile)(mesh, tile);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg
 #endif

@@ -10,6 +10,7 @@
 #include "simplify/working_mesh.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// What a tile's work leaves behind.
 struct TileOutput {
@@ -49,4 +50,5 @@ void collapse_listed(WorkingMesh& mesh, const std::vector<Index>& vertices, cons
 /// Fills Node::sums of a tile's vertices, and their first keys.
 void start_tile(WorkingMesh& mesh, const Tile& tile);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -9,6 +9,7 @@
 #include <cmath>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -369,4 +370,5 @@ void WorkingMesh::merge_tiles()
     m_blocks_per_tile *= 2;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

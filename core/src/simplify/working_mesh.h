@@ -16,6 +16,7 @@
 #include <pimg/detail/flat_array.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// The block that a vertex started in, in units of half a finest tile. It never changes, and says which tile owns the
 /// vertex.
@@ -124,4 +125,5 @@ private:
     std::uint32_t m_blocks_per_tile = 2;
 };
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

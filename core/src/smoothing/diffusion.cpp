@@ -12,6 +12,7 @@
 #include "smoothing/diffusion_rows.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -168,4 +169,5 @@ void diffuse(const Channels& guide, const DiffusionOptions& options, const Chann
     });
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

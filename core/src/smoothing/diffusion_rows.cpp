@@ -9,6 +9,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace pimg {
+inline namespace PIMG_ABI {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -66,11 +67,13 @@ void mix_rows(const float* guide, const float* picture, float share, std::size_t
 }
 
 }  // namespace HWY_NAMESPACE
+}  // namespace PIMG_ABI
 }  // namespace pimg
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace pimg {
+inline namespace PIMG_ABI {
 
 HWY_EXPORT(add_squares);
 HWY_EXPORT(to_conductances);
@@ -97,5 +100,6 @@ void mix_rows(const float* guide, const float* picture, float share, std::size_t
     HWY_DYNAMIC_DISPATCH(mix_rows)(guide, picture, share, count, to);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg
 #endif

@@ -4,7 +4,10 @@
 
 #include <cstddef>
 
+#include <pimg/abi.h>
+
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Adds (b - a)^2 to the sums of `count` pixels.
 void add_squares(const float* a, const float* b, std::size_t count, float* sums);
@@ -25,4 +28,5 @@ void diffuse_row(const DiffusingRow& rows, float length, std::size_t count, floa
 /// guide + share (picture - guide)
 void mix_rows(const float* guide, const float* picture, float share, std::size_t count, float* to);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -14,6 +14,7 @@
 #include <pimg/detail/sweep_plan.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -250,4 +251,5 @@ float noise_level(const Channels& samples, int width, int height)
     return samples.empty() ? 0.0f : float(std::sqrt(sum / double(samples.size())));
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

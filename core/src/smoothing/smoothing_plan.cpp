@@ -4,6 +4,7 @@
 #include <utility>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 void plan_sweeps(std::shared_ptr<const SweepPlan> plan, SmoothingSource& source, const ParallelFor& parallel)
 {
@@ -13,4 +14,5 @@ void plan_sweeps(std::shared_ptr<const SweepPlan> plan, SmoothingSource& source,
     source.plan = std::move(plan);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

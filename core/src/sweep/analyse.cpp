@@ -8,6 +8,7 @@
 #include <algorithm>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -153,4 +154,5 @@ Status analyse(const Hierarchy& h, const std::vector<const float*>& channels, st
     return {};
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

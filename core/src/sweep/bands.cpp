@@ -8,6 +8,7 @@
 #include <pimg/detail/stop.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 float Bands::largest_detail() const
 {
@@ -90,4 +91,5 @@ void synthesise(const Hierarchy& h, const Bands& bands, float* samples, const Pa
     add_residual(bands, samples, [](Index, float r) { return r; });
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

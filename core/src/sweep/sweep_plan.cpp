@@ -10,6 +10,7 @@
 #include <pimg/detail/stop.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -301,4 +302,5 @@ std::size_t SweepPlan::memory() const
         + m_order.capacity() * sizeof(Level) + m_tasks.capacity() * sizeof(SweepTask);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

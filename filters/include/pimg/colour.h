@@ -11,23 +11,26 @@
 
 #include <OpenImageIO/imageio.h>
 
+#include <pimg/abi.h>
+
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Replaces `count` numbers by their base-2 logarithms. Numbers below 2^-126, zero and negative ones among them, count as
 /// 2^-126.
-void log2_in_place(float* values, std::size_t count);
+PIMG_EXPORT void log2_in_place(float* values, std::size_t count);
 /// Replaces `count` numbers x by 2^x. Numbers outside -126..127 count as the nearer end of this range.
-void exp2_in_place(float* values, std::size_t count);
+PIMG_EXPORT void exp2_in_place(float* values, std::size_t count);
 
 /// The colour space that the file rules of the OpenColorIO configuration in $OCIO give a file of that name. Empty if there
 /// is no configuration, and if only its default rule applies, which says nothing about the file.
-std::string space_by_file_rule(const std::string& filename);
+PIMG_EXPORT std::string space_by_file_rule(const std::string& filename);
 
 /// Whether $OCIO is unset or names a configuration that can be read. If not, `error` says why in one line.
-bool check_colour_config(std::string& error);
+PIMG_EXPORT bool check_colour_config(std::string& error);
 
 /// How the colour of one picture is understood. It does not change once resolved, and may be shared between threads.
-class Colour {
+class PIMG_EXPORT Colour {
 public:
     /// Finds out the colour space of a picture. The first of these that says something decides:
     ///   1. `space`, the option incolorspace;
@@ -124,6 +127,7 @@ private:
 
 /// Whether a channel beside the picture's holds data rather than light, as its name (crypto, depth, normal, position,
 /// motion, UV, IDs) or its type (32-bit integers) says.
-bool holds_data(const OIIO::ImageSpec& spec, int channel, const Colour& colour);
+PIMG_EXPORT bool holds_data(const OIIO::ImageSpec& spec, int channel, const Colour& colour);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -8,13 +8,15 @@
 #include <pimg/progressive_image.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 namespace ImageBufAlgo {
 
 /// Builds the hierarchy of a plain picture with default options. On failure returns false and sets the error of `dst`.
-bool build_source(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, int nthreads, ProgressiveImage& progressive);
+PIMG_EXPORT bool build_source(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, int nthreads,
+                              ProgressiveImage& progressive);
 
 /// Sets the error of `result` when the filter `name` failed without setting one.
-void set_failed(OIIO::ImageBuf& result, const char* name);
+PIMG_EXPORT void set_failed(OIIO::ImageBuf& result, const char* name);
 
 /// A filter that can be called in four forms, which are listed in imagebufalgo.h. It is an object and not four functions,
 /// so that the forms are written only once. It converts to a pointer to its function, for tables of filters.
@@ -65,4 +67,5 @@ private:
 };
 
 }  // namespace ImageBufAlgo
+}  // namespace PIMG_ABI
 }  // namespace pimg

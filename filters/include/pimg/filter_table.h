@@ -17,6 +17,7 @@
 #include <pimg/progressive_image.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// What kind of pixels the result of a filter has.
 enum class FilterOutput {
@@ -62,17 +63,17 @@ struct Filter {
 };
 
 /// All filters. The first is `level`: a file is also read through it when only its options are given, without its name.
-const std::vector<Filter>& filter_table();
+PIMG_EXPORT const std::vector<Filter>& filter_table();
 
 /// The filter of that name, in which dashes may stand for underscores. If there is none, returns null with one line in
 /// `error` that lists the names.
-const Filter* find_filter(std::string_view name, std::string& error);
+PIMG_EXPORT const Filter* find_filter(std::string_view name, std::string& error);
 
 /// The name of a filter as menus show it: "HDR Compress" for "hdr_compress".
-std::string title_of(const Filter& filter);
+PIMG_EXPORT std::string title_of(const Filter& filter);
 
 /// A key, a summary or a help text as it stands alone, with a capital letter and without underscores: "Jitter colour".
-std::string label_of(std::string text);
+PIMG_EXPORT std::string label_of(std::string text);
 
 /// Sets options of the struct `T` from pairs of key and value, and checks them. On failure returns false with one line in
 /// `error`.
@@ -85,4 +86,5 @@ bool set_options(T& options, const OptionTexts& texts, std::string& error)
     return check_options(options, error);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

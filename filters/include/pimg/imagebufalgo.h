@@ -41,6 +41,7 @@
 #include <pimg/progressive_image.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 namespace ImageBufAlgo {
 
 using OIIO::ImageBuf;
@@ -48,18 +49,24 @@ using OIIO::ROI;
 
 /// The functions that do the work of the filters below. Call the filters by their names below, in any of the four forms.
 namespace on_hierarchy {
-bool hdr_compress(ImageBuf& dst, const ProgressiveImage& src, const HdrCompressOptions& options, ROI roi, int nthreads);
-bool feature_lowpass(ImageBuf& dst, const ProgressiveImage& src, const FeatureLowpassOptions& options, ROI roi,
-                     int nthreads);
-bool detail_enhance(ImageBuf& dst, const ProgressiveImage& src, const DetailEnhanceOptions& options, ROI roi,
-                    int nthreads);
-bool level_image(ImageBuf& dst, const ProgressiveImage& src, const LevelOptions& options, ROI roi, int nthreads);
-bool wireframe(ImageBuf& dst, const ProgressiveImage& src, const WireframeOptions& options, ROI roi, int nthreads);
-bool dual_pieces(ImageBuf& dst, const ProgressiveImage& src, const DualPiecesOptions& options, ROI roi, int nthreads);
-bool segment(ImageBuf& dst, const ProgressiveImage& src, const SegmentOptions& options, ROI roi, int nthreads);
-bool paint(ImageBuf& dst, const ProgressiveImage& src, const PaintOptions& options, ROI roi, int nthreads);
-bool mosaic(ImageBuf& dst, const ProgressiveImage& src, const MosaicOptions& options, ROI roi, int nthreads);
-bool ink(ImageBuf& dst, const ProgressiveImage& src, const InkOptions& options, ROI roi, int nthreads);
+PIMG_EXPORT bool hdr_compress(ImageBuf& dst, const ProgressiveImage& src, const HdrCompressOptions& options, ROI roi,
+                              int nthreads);
+PIMG_EXPORT bool feature_lowpass(ImageBuf& dst, const ProgressiveImage& src, const FeatureLowpassOptions& options,
+                                 ROI roi, int nthreads);
+PIMG_EXPORT bool detail_enhance(ImageBuf& dst, const ProgressiveImage& src, const DetailEnhanceOptions& options,
+                                ROI roi, int nthreads);
+PIMG_EXPORT bool level_image(ImageBuf& dst, const ProgressiveImage& src, const LevelOptions& options, ROI roi,
+                             int nthreads);
+PIMG_EXPORT bool wireframe(ImageBuf& dst, const ProgressiveImage& src, const WireframeOptions& options, ROI roi,
+                           int nthreads);
+PIMG_EXPORT bool dual_pieces(ImageBuf& dst, const ProgressiveImage& src, const DualPiecesOptions& options, ROI roi,
+                             int nthreads);
+PIMG_EXPORT bool segment(ImageBuf& dst, const ProgressiveImage& src, const SegmentOptions& options, ROI roi,
+                         int nthreads);
+PIMG_EXPORT bool paint(ImageBuf& dst, const ProgressiveImage& src, const PaintOptions& options, ROI roi, int nthreads);
+PIMG_EXPORT bool mosaic(ImageBuf& dst, const ProgressiveImage& src, const MosaicOptions& options, ROI roi,
+                        int nthreads);
+PIMG_EXPORT bool ink(ImageBuf& dst, const ProgressiveImage& src, const InkOptions& options, ROI roi, int nthreads);
 }  // namespace on_hierarchy
 
 // The forms are objects with names of functions.
@@ -157,15 +164,16 @@ inline constexpr FilterForms<InkOptions> ink { "ink", on_hierarchy::ink };
 /// Replaces every 0 in the options that stands for "found from the picture" by the value that hdr_compress() finds. When
 /// all frames of a sequence are rendered with the options of one frame, the sequence does not flicker. For options that
 /// are out of range, returns false with one line in `error`.
-bool resolve_hdr_compress(const ProgressiveImage& src, HdrCompressOptions& options, std::string& error,
-                          int nthreads = 0);
+PIMG_EXPORT bool resolve_hdr_compress(const ProgressiveImage& src, HdrCompressOptions& options, std::string& error,
+                                      int nthreads = 0);
 /// The same for a plain picture. No hierarchy is built, so this takes little longer than reading the picture. Of `build`,
 /// only incolorspace is used.
-bool resolve_hdr_compress(const ImageBuf& src, HdrCompressOptions& options, std::string& error,
-                          const BuildOptions& build = {}, int nthreads = 0);
+PIMG_EXPORT bool resolve_hdr_compress(const ImageBuf& src, HdrCompressOptions& options, std::string& error,
+                                      const BuildOptions& build = {}, int nthreads = 0);
 
 /// Finds the level that the options ask for. If they ask for more than one, returns false with one line in `error`.
-bool find_level(const Hierarchy& hierarchy, const LevelOptions& options, Level& level, std::string& error);
+PIMG_EXPORT bool find_level(const Hierarchy& hierarchy, const LevelOptions& options, Level& level, std::string& error);
 
 }  // namespace ImageBufAlgo
+}  // namespace PIMG_ABI
 }  // namespace pimg

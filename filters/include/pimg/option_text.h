@@ -15,13 +15,17 @@
 #include <utility>
 #include <vector>
 
+#include <pimg/abi.h>
+
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Options as given: pairs of key and value.
 using OptionTexts = std::vector<std::pair<std::string, std::string>>;
 
 /// Appends the options in `text` to `texts`. An empty text holds none. If an item does not follow the rules above, returns
 /// false with one line in `error` that names the item or its key; `texts` then ends with the option before it.
-bool split_options(std::string_view text, OptionTexts& texts, std::string& error, char separator = ':');
+PIMG_EXPORT bool split_options(std::string_view text, OptionTexts& texts, std::string& error, char separator = ':');
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

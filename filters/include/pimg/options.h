@@ -12,7 +12,10 @@
 #include <variant>
 #include <vector>
 
+#include <pimg/abi.h>
+
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// What happens to a file that the value of an option names. `read` also stands for options whose value may be a file or
 /// something else.
@@ -85,7 +88,7 @@ bool same_options(const T& a, const T& b);
 constexpr char kPixelsOrShare[] = "pixels or share";
 
 /// What a number of this option is in the same picture `factor` times as large: lengths in pixels grow with it.
-double resized_length(const OptionInfo& option, double value, double factor);
+PIMG_EXPORT double resized_length(const OptionInfo& option, double value, double factor);
 
 /// Describes all options of the struct T, in the order of its table.
 template<class T>
@@ -271,34 +274,35 @@ struct InkOptions {
 };
 
 /// The styles of paint(). Each sets every option that may be "not set".
-const std::vector<Preset>& paint_styles();
+PIMG_EXPORT const std::vector<Preset>& paint_styles();
 
 /// The same options with the values of their style where none is set. An unknown style changes nothing.
-PaintOptions with_style(const PaintOptions& options);
+PIMG_EXPORT PaintOptions with_style(const PaintOptions& options);
 
 template<>
-const std::vector<Option<BuildOptions>>& option_table<BuildOptions>();
+PIMG_EXPORT const std::vector<Option<BuildOptions>>& option_table<BuildOptions>();
 template<>
-const std::vector<Option<LevelOptions>>& option_table<LevelOptions>();
+PIMG_EXPORT const std::vector<Option<LevelOptions>>& option_table<LevelOptions>();
 template<>
-const std::vector<Option<WireframeOptions>>& option_table<WireframeOptions>();
+PIMG_EXPORT const std::vector<Option<WireframeOptions>>& option_table<WireframeOptions>();
 template<>
-const std::vector<Option<DualPiecesOptions>>& option_table<DualPiecesOptions>();
+PIMG_EXPORT const std::vector<Option<DualPiecesOptions>>& option_table<DualPiecesOptions>();
 template<>
-const std::vector<Option<FeatureLowpassOptions>>& option_table<FeatureLowpassOptions>();
+PIMG_EXPORT const std::vector<Option<FeatureLowpassOptions>>& option_table<FeatureLowpassOptions>();
 template<>
-const std::vector<Option<DetailEnhanceOptions>>& option_table<DetailEnhanceOptions>();
+PIMG_EXPORT const std::vector<Option<DetailEnhanceOptions>>& option_table<DetailEnhanceOptions>();
 template<>
-const std::vector<Option<HdrCompressOptions>>& option_table<HdrCompressOptions>();
+PIMG_EXPORT const std::vector<Option<HdrCompressOptions>>& option_table<HdrCompressOptions>();
 template<>
-const std::vector<Option<SegmentOptions>>& option_table<SegmentOptions>();
+PIMG_EXPORT const std::vector<Option<SegmentOptions>>& option_table<SegmentOptions>();
 template<>
-const std::vector<Option<PaintOptions>>& option_table<PaintOptions>();
+PIMG_EXPORT const std::vector<Option<PaintOptions>>& option_table<PaintOptions>();
 template<>
-const std::vector<Option<MosaicOptions>>& option_table<MosaicOptions>();
+PIMG_EXPORT const std::vector<Option<MosaicOptions>>& option_table<MosaicOptions>();
 template<>
-const std::vector<Option<InkOptions>>& option_table<InkOptions>();
+PIMG_EXPORT const std::vector<Option<InkOptions>>& option_table<InkOptions>();
 
+}  // namespace PIMG_ABI
 }  // namespace pimg
 
 #include <pimg/detail/options_impl.h>

@@ -2,6 +2,7 @@
 // All public headers of C++: pimg::filters and what it is built on, and pimg::codec. The header for C is <pimg/pimg.h>.
 #pragma once
 
+#include <pimg/abi.h>
 #include <pimg/bands.h>
 #include <pimg/brush.h>
 #include <pimg/channels.h>

@@ -15,6 +15,7 @@
 #include <pimg/simplify.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// What building took, in seconds, and figures of the simplification.
 struct BuildStats {
@@ -53,7 +54,7 @@ struct BuildStats {
 /// If sides of the picture meet (BuildOptions::wrap), the hierarchy is that of a larger picture, with margins that repeat
 /// what is beyond each seam. Filters mix what they make of both margins, so that both sides agree. In panoramas errors
 /// count less towards the poles, by the cosine of the latitude.
-class ProgressiveImage {
+class PIMG_EXPORT ProgressiveImage {
 public:
     /// A function that provides a hierarchy which was built before, and the bands of channels on it. The channels hold one
     /// finite value per mesh pixel each. Decoder::read_hierarchy() (codec.h) does this for files.
@@ -105,4 +106,5 @@ private:
     std::string m_error;
 };
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -7,6 +7,7 @@
 #include <OpenImageIO/strutil.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -35,4 +36,5 @@ bool parse_curve(std::string_view text, std::vector<CurvePoint>& points)
     return !points.empty();
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

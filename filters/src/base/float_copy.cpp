@@ -2,6 +2,7 @@
 #include "base/float_copy.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 bool copy_as_float(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src)
 {
@@ -14,4 +15,5 @@ bool copy_as_float(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src)
     return src.get_pixels(src.roi(), OIIO::TypeDesc::FLOAT, dst.localpixels());
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 std::string format_packed(fmt::string_view pattern, fmt::format_args arguments)
 {
@@ -61,4 +62,5 @@ std::string quoted_json(const std::string& text)
     return result + '"';
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -75,4 +76,5 @@ bool split_options(std::string_view text, OptionTexts& texts, std::string& error
     return true;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

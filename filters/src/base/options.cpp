@@ -9,6 +9,7 @@
 #include <system_error>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -495,4 +496,5 @@ const std::vector<Option<InkOptions>>& option_table<InkOptions>()
     return table;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

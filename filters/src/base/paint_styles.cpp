@@ -5,6 +5,7 @@
 #include <cassert>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 const std::vector<Preset>& paint_styles()
 {
@@ -54,4 +55,5 @@ PaintOptions with_style(const PaintOptions& options)
     return result;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace Filesystem = OIIO::Filesystem;
 
@@ -182,4 +183,5 @@ std::size_t SafeFileProxy::size() const
     return flush_buffer() && ::fstat(m_file.descriptor(), &now) == 0 ? std::size_t(now.st_size) : 0;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

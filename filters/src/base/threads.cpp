@@ -23,6 +23,7 @@
 #include <pimg/detail/stop.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -130,4 +131,5 @@ void run_without_foreign_tasks(const std::function<void()>& body)
     first.rethrow();
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -21,6 +21,7 @@
 namespace OCIO = OCIO_NAMESPACE;
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 struct Colour::Decoder {
     OCIO::ConstCPUProcessorRcPtr cpu;
@@ -561,4 +562,5 @@ void log2_in_place(float* values, std::size_t count)
     apply_to_scalars(processor, values, count);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

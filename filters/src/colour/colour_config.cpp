@@ -9,6 +9,7 @@
 #include <utility>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -52,4 +53,5 @@ std::string name_of_colour_config()
     return config_of_scope.empty() ? "$OCIO" : config_of_scope;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -6,7 +6,10 @@
 
 #include <OpenColorIO/OpenColorIO.h>
 
+#include <pimg/abi.h>
+
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// That of the ColourConfigScope on this thread, else that of $OCIO; null without either. Configurations are read once.
 /// Throws what OpenColorIO throws if it cannot be read.
@@ -15,4 +18,5 @@ OCIO_NAMESPACE::ConstConfigRcPtr current_colour_config();
 /// Who named it, for messages: "$OCIO", or the name itself.
 std::string name_of_colour_config();
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -10,6 +10,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace pimg {
+inline namespace PIMG_ABI {
 namespace HWY_NAMESPACE {
 
 void exp2_in_place(float* values, std::size_t count)
@@ -28,11 +29,13 @@ void srgb_in_place(float* values, std::size_t count)
 }
 
 }  // namespace HWY_NAMESPACE
+}  // namespace PIMG_ABI
 }  // namespace pimg
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace pimg {
+inline namespace PIMG_ABI {
 
 HWY_EXPORT(exp2_in_place);
 HWY_EXPORT(srgb_in_place);
@@ -47,5 +50,6 @@ void srgb_in_place(float* values, std::size_t count)
     HWY_DYNAMIC_DISPATCH(srgb_in_place)(values, count);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg
 #endif

@@ -17,6 +17,7 @@
 #include "colour/spaces.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 using OIIO::ImageBuf;
 
@@ -153,4 +154,5 @@ void declare_space(OIIO::ImageSpec& spec, const std::string& space)
         spec.attribute("oiio:ColorSpace", space);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

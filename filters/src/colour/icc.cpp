@@ -9,6 +9,7 @@
 #include <pimg/display.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -122,4 +123,5 @@ std::string display_p3_profile()
     return bytes;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

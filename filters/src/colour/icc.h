@@ -10,6 +10,7 @@
 #include "colour/primaries.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// An RGB space as a matrix and a curve for each channel.
 struct IccSpace {
@@ -28,4 +29,5 @@ bool read_icc(const void* profile, std::size_t size, IccSpace& space);
 /// The profile of Display P3: the primaries of DCI-P3, the white of D65 and the curve of sRGB.
 std::string display_p3_profile();
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -10,6 +10,7 @@
 #include <pimg/detail/parts.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -236,4 +237,5 @@ bool holds_picture(const OIIO::ImageSpec& part, const std::string& layer)
     return std::any_of(begin, begin + picture.count, [&](int channel) { return !holds_data(part, channel); });
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

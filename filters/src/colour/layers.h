@@ -7,7 +7,10 @@
 
 #include <OpenImageIO/imageio.h>
 
+#include <pimg/abi.h>
+
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// The picture among the channels.
 struct PictureChannels {
@@ -31,4 +34,5 @@ bool holds_data(const OIIO::ImageSpec& spec, int channel);
 /// surfaces either, such as albedo, the Col passes of Blender, occlusion or a mask.
 bool holds_light(const OIIO::ImageSpec& spec, int channel);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

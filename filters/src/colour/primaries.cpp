@@ -5,6 +5,7 @@
 #include <cmath>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -79,4 +80,5 @@ const Chromaticities* known_primaries(const Imath::M33d& to_rec709, double toler
     return nullptr;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

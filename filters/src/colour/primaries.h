@@ -7,7 +7,10 @@
 
 #include <OpenImageIO/Imath.h>
 
+#include <pimg/abi.h>
+
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// CIE xy of red, green, blue and white.
 using Chromaticities = std::array<double, 8>;
@@ -30,4 +33,5 @@ bool matrix_to_rec709(const Chromaticities& primaries, Imath::M33d& matrix);
 /// The well-known primaries whose matrix to Rec. 709 is within `tolerance` of this one, else null.
 const Chromaticities* known_primaries(const Imath::M33d& to_rec709, double tolerance);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -5,6 +5,7 @@
 #include <utility>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -117,4 +118,5 @@ bool find_named_space(const std::string& name, NamedSpace& space)
     return find_gamma_space(name, space) || find_interop_space(name, space);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

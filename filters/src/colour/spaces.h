@@ -7,6 +7,7 @@
 #include "colour/primaries.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// A transfer curve and primaries. The curve is ((v + offset) / (1 + offset))^gamma with a linear start, or a plain
 /// power if offset is 0.
@@ -27,4 +28,5 @@ bool names_srgb(const std::string& lower_case);
 /// Interop Forum (lin_ap1_scene), of the ACES configurations (ACEScg, Linear Rec.2020) and of old ones; in lower case.
 bool find_named_space(const std::string& lower_case, NamedSpace& space);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -13,8 +13,11 @@
 
 #include <hwy/highway.h>
 
+#include <pimg/abi.h>
+
 HWY_BEFORE_NAMESPACE();
 namespace pimg {
+inline namespace PIMG_ABI {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -101,6 +104,7 @@ HWY_INLINE void store(Vector v, std::size_t n, float* to)
 }
 
 }  // namespace HWY_NAMESPACE
+}  // namespace PIMG_ABI
 }  // namespace pimg
 HWY_AFTER_NAMESPACE();
 

@@ -4,6 +4,7 @@
 #include <pimg/detail/format.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 void ImageBufAlgo::set_failed(OIIO::ImageBuf& result, const char* name)
 {
@@ -19,4 +20,5 @@ bool ImageBufAlgo::build_source(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, 
     return false;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

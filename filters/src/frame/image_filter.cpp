@@ -10,6 +10,7 @@
 #include "frame/seam_mixer.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -156,4 +157,5 @@ void write_channels(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, OII
     write_rows(dst, data, roi, parallel, take, seams);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

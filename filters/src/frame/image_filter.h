@@ -19,6 +19,7 @@
 #include "source/to_picture.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Pixel type of a destination that does not exist yet.
 enum class ResultType {
@@ -140,4 +141,5 @@ bool filter_picture(const FilterCall& call, const Options& options, ResultType t
     });
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

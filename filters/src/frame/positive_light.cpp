@@ -8,6 +8,7 @@
 #include <pimg/detail/stop.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -92,4 +93,5 @@ void bound_below(const ProgressiveImage::Data& data, const ParallelFor& parallel
     }
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

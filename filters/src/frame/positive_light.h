@@ -13,6 +13,7 @@
 #include "source/progressive_image_data.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Share of the expected light down to which values stay as they are. Chosen by eye: at 1/2 no value falls more than two
 /// stops below its surroundings, which looks like shade; at 1/8 rings round lamps are still nearly black.
@@ -41,4 +42,5 @@ void bound_below(const ProgressiveImage::Data& data, const ParallelFor& parallel
 /// Whether the picture is scene-linear. Encoded pictures have a black, so undershoot does not show.
 bool is_scene_linear(const ProgressiveImage::Data& data);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -50,4 +51,5 @@ std::vector<float> SeamMixer::mixed_columns(const RowSpan& span) const
     return result;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

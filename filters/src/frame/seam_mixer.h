@@ -8,6 +8,7 @@
 #include "frame/image_filter.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Makes spans of the picture. All references must outlive it.
 class SeamMixer {
@@ -38,4 +39,5 @@ private:
     bool m_mixes;
 };
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -15,6 +15,7 @@
 #include "source/samples/above_noise.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 namespace ImageBufAlgo {
 
 namespace {
@@ -287,4 +288,5 @@ bool on_hierarchy::detail_enhance(ImageBuf& dst, const ProgressiveImage& src, co
 }
 
 }  // namespace ImageBufAlgo
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -14,6 +14,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace pimg {
+inline namespace PIMG_ABI {
 namespace HWY_NAMESPACE {
 
 // A pixel never depends on the other pixels of its vector, because their number depends on the instruction set.
@@ -265,11 +266,13 @@ void lightness_in_place(const ToneCurve& curve, float* stops, std::size_t count)
 }
 
 }  // namespace HWY_NAMESPACE
+}  // namespace PIMG_ABI
 }  // namespace pimg
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace pimg {
+inline namespace PIMG_ABI {
 
 HWY_EXPORT(recolour);
 HWY_EXPORT(lightness_in_place);
@@ -293,5 +296,6 @@ void lightness_in_place(const ToneCurve& curve, float* stops, std::size_t count)
     HWY_DYNAMIC_DISPATCH(lightness_in_place)(curve, stops, count);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg
 #endif

@@ -5,7 +5,10 @@
 #include <array>
 #include <cstddef>
 
+#include <pimg/abi.h>
+
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Display luminance of middle grey.
 constexpr float kMiddleGrey = 0.18f;
@@ -42,4 +45,5 @@ void recolour(const Recolour& how, const float* compressed, const float* guide, 
 /// constants.
 void lightness_in_place(const ToneCurve& curve, float* stops, std::size_t count);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -5,6 +5,7 @@
 #include <cmath>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 // Chosen on nine photographs (docs/look.md), by eye beside other tone mappers and by their measures: more stops of the base
@@ -123,4 +124,5 @@ void find_exposure(CompressedCells cells, float scene_key, float dark, HdrCompre
     options.key = std::exp2(0.5f * (low + high));
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -10,6 +10,7 @@
 #include "source/overview.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// What s0, dmax and detail are where they are 0: dmax a share of the picture's dynamic range, `range` stops, and the
 /// others all from dmax, so that pictures compressed with one dmax are treated alike.
@@ -34,4 +35,5 @@ float find_scene_key(const Overview& overview);
 /// that the display shows.
 ToneCurve tone_curve(const HdrCompressOptions& options);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

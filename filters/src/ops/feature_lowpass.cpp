@@ -11,6 +11,7 @@
 #include "frame/positive_light.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 namespace ImageBufAlgo {
 
 namespace {
@@ -86,4 +87,5 @@ bool on_hierarchy::feature_lowpass(ImageBuf& dst, const ProgressiveImage& src, c
 }
 
 }  // namespace ImageBufAlgo
+}  // namespace PIMG_ABI
 }  // namespace pimg

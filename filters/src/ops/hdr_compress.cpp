@@ -21,6 +21,7 @@
 #include "source/preview.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 namespace ImageBufAlgo {
 
 namespace {
@@ -381,4 +382,5 @@ bool on_hierarchy::hdr_compress(ImageBuf& dst, const ProgressiveImage& src, cons
 }
 
 }  // namespace ImageBufAlgo
+}  // namespace PIMG_ABI
 }  // namespace pimg

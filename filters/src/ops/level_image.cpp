@@ -12,6 +12,7 @@
 #include "frame/positive_light.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 bool make_level(ProgressiveImage::Data& data, const LevelOptions& options, bool with_channels,
                 const ParallelFor& parallel, LevelPicture& picture, std::string& error)
@@ -84,4 +85,5 @@ bool on_hierarchy::level_image(ImageBuf& dst, const ProgressiveImage& src, const
 }
 
 }  // namespace ImageBufAlgo
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -5,6 +5,7 @@
 #include "source/progressive_image_data.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// The mesh of a level and the Gouraud-shaded colour channels it shows, one raster of the picture's size each.
 struct LevelPicture {
@@ -18,4 +19,5 @@ struct LevelPicture {
 bool make_level(ProgressiveImage::Data& data, const LevelOptions& options, bool with_channels,
                 const ParallelFor& parallel, LevelPicture& picture, std::string& error);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

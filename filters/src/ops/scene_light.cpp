@@ -9,6 +9,7 @@
 #include "colour/layers.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -92,4 +93,5 @@ void write_scene_light(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, 
                [&](const RowSpan& span, float* row) { lighter.render(first_of(data, span), span.width(), row); });
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

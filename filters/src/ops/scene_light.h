@@ -5,6 +5,7 @@
 #include "frame/image_filter.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// The factor on the light of every pixel; its base-2 logarithm is slope * compressed - guide / kUnitsPerStop + offset.
 /// Both rasters are of the picture's size.
@@ -22,4 +23,5 @@ void write_gain(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, const O
 void write_scene_light(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, const OIIO::ROI& roi,
                        const ParallelFor& parallel, const LightGain& gain, bool all_light);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -12,6 +12,7 @@
 #include "ops/level_image.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 namespace ImageBufAlgo {
 
 namespace {
@@ -63,4 +64,5 @@ bool on_hierarchy::wireframe(ImageBuf& dst, const ProgressiveImage& src, const W
 }
 
 }  // namespace ImageBufAlgo
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -9,6 +9,7 @@
 #include "base/curve_text.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -85,4 +86,5 @@ float ZoneCurve::at(float stops) const
     return m_raised[i] + (step - float(i)) * (m_raised[i + 1] - m_raised[i]);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

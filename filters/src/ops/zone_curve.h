@@ -8,6 +8,7 @@
 #include <pimg/options.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Stops above middle grey of the scene to stops that such a part of the picture is raised by.
 class ZoneCurve {
@@ -26,4 +27,5 @@ private:
     std::vector<float> m_raised;  ///< at even steps from there on
 };
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -12,6 +12,7 @@
 #include "source/samples/ringing.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -348,4 +349,5 @@ StoredGuide stored_guide(const OIIO::ImageBuf& picture, const Colour& colour, bo
     return result;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -14,6 +14,7 @@
 #include <pimg/types.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Guide units of one stop of a log guide: 20 stops are the 255 of an 8-bit picture.
 constexpr float kUnitsPerStop = 12.75f;
@@ -84,4 +85,5 @@ void linear_pixels(const OIIO::ImageBuf& picture, const Colour& colour, Index fi
 /// Multiplies results made of linear_pixels() by alpha again.
 void associate_pixels(const OIIO::ImageBuf& picture, const Colour& colour, Index first, std::size_t count, float* rgb);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -8,6 +8,7 @@
 #include <pimg/detail/rec709.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -86,4 +87,5 @@ std::vector<Raster> lab_guide(const OIIO::ImageBuf& picture, const Colour& colou
     return channels;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

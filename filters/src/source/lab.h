@@ -12,6 +12,7 @@
 #include "source/guide.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// CIELAB-like channels of a float picture without special samples, one raster of its size each: L, a, b of its linear
 /// light; L alone for one colour channel, and that of each for two. Greys have a = b = 0 whatever the primaries.
@@ -25,4 +26,5 @@ std::vector<std::vector<float>> lab_channels(const OIIO::ImageBuf& picture, cons
 /// The same as guide channels: 255 guide units are L = 100, so that all three weigh as they are seen.
 std::vector<Raster> lab_guide(const OIIO::ImageBuf& picture, const Colour& colour, const ParallelFor& parallel);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -13,6 +13,7 @@
 #include <pimg/detail/parallel.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -223,4 +224,5 @@ float quantile(std::vector<Weighted>& numbers, double q)
     return numbers.back().value;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -14,6 +14,7 @@
 #include "source/wrap/wrap.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 struct Overview {
     std::vector<float> log;     ///< log2 of the mean luminance in every cell of a coarse grid, in guide units
@@ -35,4 +36,5 @@ struct Weighted {
 /// The number at a quantile, 0..1, by weight; 0 if there are none. Sorts `numbers`.
 float quantile(std::vector<Weighted>& numbers, double q);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

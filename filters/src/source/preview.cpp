@@ -9,6 +9,7 @@
 #include "source/progressive_image_data.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -149,4 +150,5 @@ bool ProgressiveImage::Data::build_preview(const ParallelFor& parallel, const Pr
     return status.ok();
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

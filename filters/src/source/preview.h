@@ -9,6 +9,7 @@
 #include <pimg/types.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// How many pixels of a picture, across and down, become one of its preview: a power of two, so that the preview has at
 /// most half a million; 1 for a picture too small to be reduced.
@@ -24,4 +25,5 @@ Raster reduced(const Raster& picture, int step, const ParallelFor& parallel);
 void enlarge(const Raster& small_guide, const std::vector<float>& small_result, int step, const Raster& guide,
              float usual, const ParallelFor& parallel, std::vector<float>& result);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

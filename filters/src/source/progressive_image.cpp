@@ -21,6 +21,7 @@
 #include "source/wrap/latitude.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -533,4 +534,5 @@ std::size_t ProgressiveImage::memory() const
     return m_data->memory();
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

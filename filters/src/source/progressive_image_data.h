@@ -19,6 +19,7 @@
 #include "source/wrap/wrap.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Bands of log luminance, whatever the guide was.
 struct LogBands {
@@ -167,4 +168,5 @@ private:
     std::vector<float> m_values;
 };
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -11,6 +11,7 @@
 #include "source/wrap/wrapped_pieces.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -105,4 +106,5 @@ std::shared_ptr<const RegionTree> ProgressiveImage::Data::region_tree(std::size_
     return m_regions = std::move(tree);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

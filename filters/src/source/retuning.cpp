@@ -10,6 +10,7 @@
 #include "source/progressive_image_data.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 void expect_retunes(const ProgressiveImage& image)
 {
@@ -96,4 +97,5 @@ std::shared_ptr<const SmoothingData> ProgressiveImage::Data::smoothing(bool log,
     return cached;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -9,6 +9,7 @@
 #include "source/to_picture.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -138,4 +139,5 @@ void to_picture(const Hierarchy& hierarchy, const SmoothingData& smoothing, Chan
     }
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -14,6 +14,7 @@
 #include "source/guide.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// A logarithm for samples of either sign: in octaves, log2(x / unit) far above the unit and linear below it. 2^-10 of
 /// the picture's median magnitude is the unit: what is darker has no contrast worth keeping.
@@ -54,4 +55,5 @@ float find_strength(const StrengthOptions& options, const SmoothingData& smoothi
 /// Converts results of core to rasters of the picture's size, in the picture's units.
 void to_picture(const Hierarchy& hierarchy, const SmoothingData& smoothing, Channels& results);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -7,6 +7,7 @@
 #include <pimg/bands.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 std::vector<float> to_picture(const Hierarchy& hierarchy, const float* values, int exponent,
                               const std::vector<float>* residual, float factor)
@@ -35,4 +36,5 @@ void crop_to_picture(const Hierarchy& hierarchy, std::vector<float>& samples)
     samples.resize(width * height);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -7,6 +7,7 @@
 #include <pimg/hierarchy.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// From values of the finest level in vertex order to a raster of the picture's size, plus `factor` times the residual
 /// if given (of mesh pixels, or empty), times 2^exponent.
@@ -16,4 +17,5 @@ std::vector<float> to_picture(const Hierarchy& hierarchy, const float* values, i
 /// From a raster of the mesh's size to one of the picture's: the same, but for pictures one pixel wide or high.
 void crop_to_picture(const Hierarchy& hierarchy, std::vector<float>& samples);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

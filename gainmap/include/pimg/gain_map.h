@@ -15,6 +15,7 @@
 #include <pimg/options.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// How a gain map is made; its option_table has ranges and help.
 struct GainMapOptions {
@@ -25,24 +26,25 @@ struct GainMapOptions {
 };
 
 template<>
-const std::vector<Option<GainMapOptions>>& option_table<GainMapOptions>();
+PIMG_EXPORT const std::vector<Option<GainMapOptions>>& option_table<GainMapOptions>();
 
 /// Makes the gain-map file of a base and its HDR rendition.
 ///   base       an ordinary JPEG file, whole: its pixels stay as they are, byte for byte
 ///   rendition  the HDR picture, display-linear, as large as the base; its metadata say in which primaries it is, see
 ///              Colour::resolve(). Samples below 0 count as 0; alpha is ignored.
 /// False, with `error` saying why, if the base is no JPEG file, has a gain map already, or differs in size.
-bool add_gain_map(const std::string& base, const OIIO::ImageBuf& rendition, const GainMapOptions& options,
-                  std::string& file, std::string& error);
+PIMG_EXPORT bool add_gain_map(const std::string& base, const OIIO::ImageBuf& rendition, const GainMapOptions& options,
+                              std::string& file, std::string& error);
 
 /// Whether the bytes are those of a JPEG file with a gain map.
-bool has_gain_map(const std::string& file);
+PIMG_EXPORT bool has_gain_map(const std::string& file);
 
 /// The HDR rendition of a gain-map file: display-linear RGB as float, in the primaries of the base, with its metadata.
 ///   headroom   how much brighter than SDR white the display can be, in stops; 0 gives the base, and a headroom as large
 ///              as the file's own, or below 0, the whole rendition
 /// The result has an error, a line that names what was expected, if the bytes are no JPEG file, have no gain map, are cut
 /// off, or hold numbers that make no sense.
-OIIO::ImageBuf gain_map_rendition(const std::string& file, float headroom = -1.0f);
+PIMG_EXPORT OIIO::ImageBuf gain_map_rendition(const std::string& file, float headroom = -1.0f);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -6,7 +6,10 @@
 #include <string>
 #include <vector>
 
+#include <pimg/abi.h>
+
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Paint at one place of a stroke.
 struct Paint {
@@ -18,7 +21,7 @@ struct Paint {
 /// strokes are anti-aliased. Its columns run along the stroke and its rows across it. The first and the last quarter of
 /// the columns are the stroke's ends, each as long as the stroke is wide. The middle is stretched to the stroke's
 /// length.
-class Brush {
+class PIMG_EXPORT Brush {
 public:
     static constexpr int kColumns = 128, kRows = 64;  ///< size of the finest mask
 
@@ -77,4 +80,5 @@ private:
     std::vector<std::vector<std::vector<Paint>>> m_levels;  ///< [variant][level]
 };
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -9,6 +9,7 @@
 #include <pimg/types.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// A place or a direction, in pixels, y down. The centre of pixel (x, y) is at (x, y).
 struct Vec2 {
@@ -19,7 +20,7 @@ using Planes [[deprecated("use ChannelsView")]] = ChannelsView;
 
 /// A direction at every place of a picture. Directions have no sign: a and a + 180 degrees are the same. To be averaged
 /// correctly, they are stored as (cos 2a, sin 2a) times a certainty, at half the picture's resolution.
-class DirectionField {
+class PIMG_EXPORT DirectionField {
 public:
     /// Finds the directions of `guides`: one or more channels of finite samples in units of about one step of an 8-bit
     /// picture. Edges of colour count as much as edges of brightness, since the structure tensors of all channels are
@@ -44,4 +45,5 @@ private:
     std::vector<Vec2> m_doubled;
 };
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

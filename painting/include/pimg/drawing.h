@@ -9,6 +9,7 @@
 #include <pimg/types.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// A place on the middle of a line, and how wide the line is there, in pixels. The centre of pixel (x, y) is at (x, y).
 struct InkPoint {
@@ -34,21 +35,22 @@ struct Drawing {
 };
 
 /// The same drawing on a picture of another size, 1 x 1 pixels or more.
-Drawing resized(const Drawing& drawing, int width, int height);
+PIMG_EXPORT Drawing resized(const Drawing& drawing, int width, int height);
 
 /// Leaves out points where a line is straight and evenly wide to within `tolerance` pixels, 0 or more.
-void simplify_lines(Drawing& drawing, float tolerance);
+PIMG_EXPORT void simplify_lines(Drawing& drawing, float tolerance);
 
 /// Orders the lines so that a pen travels little between them: ink by ink, and from each line to the nearest end of
 /// those left. Lines may be turned round.
-void sort_lines(Drawing& drawing);
+PIMG_EXPORT void sort_lines(Drawing& drawing);
 
 /// How far the pen travels off the paper, in pixels: from the end of each line to the beginning of the next.
-double pen_travel(const Drawing& drawing);
+PIMG_EXPORT double pen_travel(const Drawing& drawing);
 
 /// Draws the lines on a canvas of the drawing's size, in their order. values[c][i] is the value of ink i in channel c. A
 /// line covers a pixel as far as it covers the pixel's area. The result does not depend on `parallel`.
-void render_drawing(const Drawing& drawing, const std::vector<std::vector<float>>& values, Canvas& canvas,
-                    const ParallelFor& parallel = {});
+PIMG_EXPORT void render_drawing(const Drawing& drawing, const std::vector<std::vector<float>>& values, Canvas& canvas,
+                                const ParallelFor& parallel = {});
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -7,6 +7,7 @@
 #include <pimg/drawing.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// A sheet of paper in millimetres, each side above 0.
 struct Paper {
@@ -15,19 +16,20 @@ struct Paper {
 
 /// Millimetres of paper to a pixel when a picture fills the paper as far as it can. The paper is turned if that makes the
 /// drawing larger.
-double millimetres_per_pixel(const Drawing& drawing, Paper& paper);
+PIMG_EXPORT double millimetres_per_pixel(const Drawing& drawing, Paper& paper);
 
 /// An SVG drawing on a white sheet of `paper`, in the middle and as large as it fits, in millimetres. There is one group
 /// for each ink, which Inkscape and programs of plotters show as a layer, in the order of the inks from the last to the
 /// first, which is black. Every line is a closed path round what the pen covers, and a dot is a circle.
-std::string drawing_to_svg(const Drawing& drawing, Paper paper);
+PIMG_EXPORT std::string drawing_to_svg(const Drawing& drawing, Paper paper);
 
 /// The same for a plotter that draws with pens of one width: the middle lines, each as a path with that stroke width, a dot
 /// as a path of no length. `pen` is in pixels. There is no sheet behind them.
-std::string drawing_to_plot(const Drawing& drawing, Paper paper, float pen);
+PIMG_EXPORT std::string drawing_to_plot(const Drawing& drawing, Paper paper, float pen);
 
 /// A JSON object: {"width", "height", "inks": [[r, g, b], ...], "lines": [{"ink": number, "points": [[x, y, width],
 /// ...]}, ...]}, in pixels, where the centres of pixels have whole coordinates.
-std::string drawing_to_json(const Drawing& drawing);
+PIMG_EXPORT std::string drawing_to_json(const Drawing& drawing);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -10,6 +10,7 @@
 #include <pimg/strokes.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// What tones are made of.
 enum class InkStyle {
@@ -54,7 +55,7 @@ struct InkPicture {
 ///
 /// Everything is planned on a grid of fixed size in pens. So pictures of the same subject in two sizes give nearly the
 /// same drawing for the same `width` in proportion to the picture.
-void draw_ink(const InkPicture& picture, const PenOptions& options, Drawing& drawing);
+PIMG_EXPORT void draw_ink(const InkPicture& picture, const PenOptions& options, Drawing& drawing);
 
 /// The drawing that draw_ink() makes of `darkness` alone, from 0 (paper) to 1 (black), as strokes that are as wide as the
 /// pen. `hierarchy` is not used, and of `field` only the size. Does not fail.
@@ -62,4 +63,5 @@ void draw_ink(const InkPicture& picture, const PenOptions& options, Drawing& dra
                                                  const DirectionField& field, const PenOptions& options,
                                                  Strokes& lines);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

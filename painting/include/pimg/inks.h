@@ -6,7 +6,10 @@
 #include <cstdint>
 #include <vector>
 
+#include <pimg/abi.h>
+
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// An ink, and how dark it is.
 struct Ink {
@@ -29,6 +32,7 @@ struct InkChoice {
 /// Chooses at most `count` inks, 1..16, the first of which is black. Ink on white paper makes all mixtures of its colour
 /// with white. So regions whose colours lie in about the same direction from white share an ink, and it is about as
 /// dark as the darkest of them. Regions of no clear colour are drawn in black.
-InkChoice choose_inks(const std::vector<RegionColour>& regions, int count);
+PIMG_EXPORT InkChoice choose_inks(const std::vector<RegionColour>& regions, int count);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

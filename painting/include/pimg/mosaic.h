@@ -11,6 +11,7 @@
 #include <pimg/types.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// The tiles of one level. The vectors have one entry per pixel of the mesh's grid, row-major.
 struct Tiling {
@@ -21,17 +22,18 @@ struct Tiling {
 };
 
 /// Makes the tiles of a mesh M_i. The result does not depend on `parallel`.
-Tiling tile(const Mesh& mesh, const ParallelFor& parallel = {});
+PIMG_EXPORT Tiling tile(const Mesh& mesh, const ParallelFor& parallel = {});
 
 /// Cells around the middles of the pieces of M_i, as the number of the vertex for each pixel, row-major. They are evener than the
 /// pieces: each pixel belongs to a cell whose middle is near and whose colour is like its own. Each is connected. `guides` are up
 /// to three channels of the mesh's size in units of one step of an 8-bit picture. A few vertices may get no pixel. The
 /// result does not depend on `parallel`.
-std::vector<Index> grow_cells(const Mesh& mesh, const ChannelsView& guides, const ParallelFor& parallel = {});
+PIMG_EXPORT std::vector<Index> grow_cells(const Mesh& mesh, const ChannelsView& guides,
+                                          const ParallelFor& parallel = {});
 
 /// The tiling of a partition of width x height pixels into tiles 0 .. tiles - 1. Corners are rounded with a radius of `round`
 /// times that of the largest disc in the tile, 0..1.
-Tiling tiling_of(const std::vector<Index>& labels, int width, int height, Index tiles, float round);
+PIMG_EXPORT Tiling tiling_of(const std::vector<Index>& labels, int width, int height, Index tiles, float round);
 
 /// How tiles are drawn.
 struct TileOptions {
@@ -49,7 +51,8 @@ using MosaicSettings [[deprecated("renamed: TileOptions")]] = TileOptions;
 /// Draws the mosaic into `channels`, which hold the picture: one float per pixel of the tiling, row-major. Each tile gets
 /// the channel's mean over it, with lit slopes at its sides. The joints between tiles, and the lead of stained glass, get grout_colours[c] in channel c.
 /// `tiles` is the number of vertices of M_i.
-void lay_mosaic(const Tiling& tiling, Index tiles, const TileOptions& options, const std::vector<float>& grout_colours,
-                const std::vector<float*>& channels);
+PIMG_EXPORT void lay_mosaic(const Tiling& tiling, Index tiles, const TileOptions& options,
+                            const std::vector<float>& grout_colours, const std::vector<float*>& channels);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

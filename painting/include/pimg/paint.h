@@ -8,6 +8,7 @@
 #include <pimg/strokes.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// What is painted on: channels of floats, width x height, row-major. They may hold any values, and nothing is clipped.
 struct Canvas {
@@ -42,11 +43,12 @@ using PaintSettings [[deprecated("renamed: StrokePaintOptions")]] = StrokePaintO
 
 /// Paints the strokes in their order. colours[c][i] is the value of stroke i in channel c of the canvas; the entry
 /// after the channels is its alpha, if the canvas has one.
-void paint_strokes(const Strokes& strokes, const std::vector<std::vector<float>>& colours, const Brush& brush,
-                   const StrokePaintOptions& options, Canvas& canvas);
+PIMG_EXPORT void paint_strokes(const Strokes& strokes, const std::vector<std::vector<float>>& colours,
+                               const Brush& brush, const StrokePaintOptions& options, Canvas& canvas);
 
 /// Lights the relief of the paint from the upper left. Every channel is multiplied by a number between about
 /// 1 - strength / 2 and 1 + strength / 2, for a strength of 0..1. Where paint is equally thick, nothing changes.
-void light_relief(Canvas& canvas, float strength, const ParallelFor& parallel = {});
+PIMG_EXPORT void light_relief(Canvas& canvas, float strength, const ParallelFor& parallel = {});
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -14,10 +14,11 @@
 #include <pimg/types.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// The dual piece of a vertex as the paper draws it: the polygon through the centres of the triangles around it, in order,
 /// in pixels. That of a border vertex also passes through the middles of its two border edges and through itself.
-std::vector<Vec2> piece_polygon(const Mesh& mesh, Index vertex);
+PIMG_EXPORT std::vector<Vec2> piece_polygon(const Mesh& mesh, Index vertex);
 
 /// A place for one stroke: a rectangle with the area of a piece, as long as the piece is along the edges.
 struct Dab {
@@ -28,7 +29,7 @@ struct Dab {
 };
 
 /// Which dabs are wanted.
-struct DabOptions {
+struct PIMG_EXPORT DabOptions {
     float min = 3.0f, max = 32.0f;  ///< narrowest and widest dab in pixels; others are left out
     /// A map, row-major, of the picture's size, with values m of 0..1, by which the range of widths is multiplied by
     /// 4^(1 - 2 m): 1 asks for strokes a quarter as wide, 0 for strokes four times as wide, and 0.5 changes nothing.
@@ -43,8 +44,8 @@ struct DabOptions {
 /// Replays all splits, and measures the pieces of the base vertices and of both vertices of every split. A piece that is
 /// too large is measured again whenever a split next to it changes it, until it fits, so that no part of the picture is
 /// left without a dab. `dabs` are in the order of the splits. Fails only on a damaged hierarchy.
-Status collect_dabs(const Hierarchy& hierarchy, const DirectionField& field, const DabOptions& options,
-                    std::vector<Dab>& dabs);
+PIMG_EXPORT Status collect_dabs(const Hierarchy& hierarchy, const DirectionField& field, const DabOptions& options,
+                                std::vector<Dab>& dabs);
 
 /// One stroke: a brush drawn along a polyline.
 struct Stroke {
@@ -81,14 +82,15 @@ struct StrokeOptions : DabOptions {
 
 /// Plans the strokes of a painting. `guides` are up to three channels in units of one step of an 8-bit picture; strokes
 /// do not run across differences in them. Fails only on a damaged hierarchy.
-Status plan_strokes(const Hierarchy& hierarchy, const ChannelsView& guides, const DirectionField& field,
-                    const StrokeOptions& options, Strokes& strokes);
+PIMG_EXPORT Status plan_strokes(const Hierarchy& hierarchy, const ChannelsView& guides, const DirectionField& field,
+                                const StrokeOptions& options, Strokes& strokes);
 
 /// The colour of every stroke in each channel of `picture`: entry [c][i] is that of channel c and stroke i. It is the mean
 /// of those samples under the stroke's middle line whose `guides` are like those at its centre, so it lies within the
 /// range of the samples.
-std::vector<std::vector<float>> stroke_colours(const Strokes& strokes, const ChannelsView& picture,
-                                               const ChannelsView& guides, const ParallelFor& parallel = {});
+PIMG_EXPORT std::vector<std::vector<float>> stroke_colours(const Strokes& strokes, const ChannelsView& picture,
+                                                           const ChannelsView& guides,
+                                                           const ParallelFor& parallel = {});
 
 [[deprecated("renamed: stroke_colours()")]] inline std::vector<std::vector<float>> stroke_colors(
     const Strokes& strokes, const ChannelsView& picture, const ChannelsView& guides, const ParallelFor& parallel = {})
@@ -110,4 +112,5 @@ inline float signed_unit(std::uint32_t bits)
     return float(bits >> 8) * (2.0f / 16777215.0f) - 1.0f;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -8,6 +8,7 @@
 #include <utility>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -309,4 +310,5 @@ void render_drawing(const Drawing& drawing, const std::vector<std::vector<float>
     });
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

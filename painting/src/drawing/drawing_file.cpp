@@ -7,6 +7,7 @@
 #include "number_text.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -200,4 +201,5 @@ std::string drawing_to_json(const Drawing& drawing)
     return json + "\n]}\n";
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

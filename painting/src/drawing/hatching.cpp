@@ -12,6 +12,7 @@
 #include "drawing/raster_ops.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -249,4 +250,5 @@ float taper_at(Index k, Index count, float pen, float cover)
     return tip + (1.0f - tip) * std::min(1.0f, share);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -7,6 +7,7 @@
 #include <pimg/drawing.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Directions of hatching: those of the large forms of a picture, without its grain, with a preference for a diagonal.
 class FormField {
@@ -43,4 +44,5 @@ void add_hatching(const FormField& field, const HatchLayer& layer, Drawing& draw
 /// less so the larger the share `cover` of the paper that the drawing is to cover there.
 float taper_at(Index k, Index count, float pen, float cover);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -16,6 +16,7 @@
 #include "drawing/stipple.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -250,4 +251,5 @@ Status plan_ink(const Hierarchy&, const float* darkness, const DirectionField& f
     return {};
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

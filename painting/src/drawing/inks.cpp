@@ -7,6 +7,7 @@
 #include <pimg/detail/rec709.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -157,4 +158,5 @@ InkChoice choose_inks(const std::vector<RegionColour>& regions, int count)
     return choice;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -18,6 +18,7 @@
 #include "drawing/raster_ops.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -389,4 +390,5 @@ void add_outlines(const std::vector<Raster>& features, const std::vector<Raster>
     Tracer(edges, options, drawing).trace();
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -7,6 +7,7 @@
 #include <pimg/drawing.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Which edges get a line, and how wide it is. Lengths are in pixels of the pictures.
 struct OutlineOptions {
@@ -23,4 +24,5 @@ struct OutlineOptions {
 void add_outlines(const std::vector<Raster>& features, const std::vector<Raster>& base, const OutlineOptions& options,
                   Drawing& drawing);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -5,6 +5,7 @@
 #include <pimg/detail/parallel.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -113,4 +114,5 @@ Raster resampled(const float* samples, int width, int height, int new_width, int
     return result;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -10,6 +10,7 @@
 #include <pimg/types.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 inline Raster make_raster(int width, int height, float value = 0.0f)
 {
@@ -60,4 +61,5 @@ Raster blurred(const Raster& raster, float sigma, const ParallelFor& parallel);
 Raster resampled(const float* samples, int width, int height, int new_width, int new_height,
                  const ParallelFor& parallel);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -11,6 +11,7 @@
 #include "drawing/raster_ops.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -150,4 +151,5 @@ void add_stipple(const Raster& cover, const StippleOptions& options, Drawing& dr
     stippler.add_to(drawing);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

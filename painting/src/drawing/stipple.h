@@ -7,6 +7,7 @@
 #include <pimg/drawing.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// What dots are made of.
 struct StippleOptions {
@@ -20,4 +21,5 @@ struct StippleOptions {
 /// of a weighted Voronoi diagram (Secord 2002), and each is as large as its cell asks for.
 void add_stipple(const Raster& cover, const StippleOptions& options, Drawing& drawing);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

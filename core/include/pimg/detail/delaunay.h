@@ -6,13 +6,14 @@
 #include <pimg/sampling.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Sign of whether d lies inside the circle through the positively oriented a, b, c: > 0 inside, 0 on it. Exact for
 /// coordinates below 2^20.
-int in_circle(Point a, Point b, Point c, Point d);
+PIMG_EXPORT_DETAIL int in_circle(Point a, Point b, Point c, Point d);
 
 /// Fills corners and twins of a mesh whose pixels are set; the guide decides ties.
-void triangulate_delaunay(InitialMesh& mesh, const Guide& guide);
+PIMG_EXPORT_DETAIL void triangulate_delaunay(InitialMesh& mesh, const Guide& guide);
 
 /// Half-edges of e's triangle after and before e.
 inline Index next_edge(Index e)
@@ -29,10 +30,11 @@ inline Index previous_edge(Index e)
 ///     | e \   |          |    /  |       afterwards e: d -> b of (d, b, c), twin: c -> a of (c, a, d)
 ///     |    \  |   --->   |  /    |
 ///     c ----- b          c ----- b
-void flip(InitialMesh& mesh, Index e);
+PIMG_EXPORT_DETAIL void flip(InitialMesh& mesh, Index e);
 
 /// Flips edges away from vertices of more than kMaxDegree neighbours (ghost counted). Returns those
 /// that keep too many because no flip is left.
-std::vector<Index> limit_degrees(InitialMesh& mesh);
+PIMG_EXPORT_DETAIL std::vector<Index> limit_degrees(InitialMesh& mesh);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

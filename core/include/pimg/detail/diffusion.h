@@ -9,6 +9,7 @@
 #include <pimg/types.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// How values flow. The conductance of an edge of the grid is
 ///     1 / (1 + (d / contrast)^2)^2
@@ -25,6 +26,8 @@ struct DiffusionOptions {
 /// Diffuses every channel of `picture`, which may be the guide itself; the conductances are those of the guide as
 /// given. The mean is preserved. After the last step no value is outside the range of the picture by more than
 /// rounding.
-void diffuse(const Channels& guide, const DiffusionOptions& options, const Channels& picture, Channels& result);
+PIMG_EXPORT_DETAIL void diffuse(const Channels& guide, const DiffusionOptions& options, const Channels& picture,
+                                Channels& result);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

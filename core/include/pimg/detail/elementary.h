@@ -10,7 +10,11 @@
 #include <cstdint>
 #include <cstring>
 
-namespace pimg::elementary {
+#include <pimg/abi.h>
+
+namespace pimg {
+inline namespace PIMG_ABI {
+namespace elementary {
 
 constexpr double kLn2 = 0.693147180559945309417;
 constexpr double kPi = 3.14159265358979323846;
@@ -94,4 +98,6 @@ inline SineCosine sine_cosine(double angle)
     return { sine * angle, cosine };
 }
 
-}  // namespace pimg::elementary
+}  // namespace elementary
+}  // namespace PIMG_ABI
+}  // namespace pimg

@@ -13,9 +13,12 @@
 
 #ifdef __linux__
 #include <sys/mman.h>
+
+#include <pimg/abi.h>
 #endif
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 template<class T>
 class FlatArray {
@@ -116,4 +119,5 @@ private:
     std::size_t m_size = 0, m_capacity = 0;
 };
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

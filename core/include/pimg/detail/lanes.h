@@ -7,7 +7,10 @@
 #include <cstring>
 #include <type_traits>
 
+#include <pimg/abi.h>
+
 namespace pimg {
+inline namespace PIMG_ABI {
 
 typedef float FourFloats __attribute__((vector_size(16)));
 
@@ -70,4 +73,5 @@ Lanes<C> interpolate_lanes(Lanes<C> s, Lanes<C> a, Lanes<C> b, float wa, float w
     return s + (in_all_lanes<C>(wa) * (a - s) + in_all_lanes<C>(wb) * (b - s));
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -11,6 +11,7 @@
 #include <pimg/types.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Keeps the first exception of bodies that run at once, for the thread that waits for them.
 class FirstException {
@@ -86,4 +87,5 @@ void for_rows(const ParallelFor& parallel, int begin, int end, Body&& body)
     });
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

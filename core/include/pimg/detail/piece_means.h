@@ -10,11 +10,13 @@
 #include <pimg/hierarchy.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Number of pixels t and u of each split stand for. Depends on the geometry only.
-std::vector<SplitPair> piece_sizes(const Hierarchy& hierarchy);
+PIMG_EXPORT_DETAIL std::vector<SplitPair> piece_sizes(const Hierarchy& hierarchy);
 
 /// Means of one channel, a value per mesh pixel, row-major.
-PieceMeans piece_means(const Hierarchy& hierarchy, const float* samples);
+PIMG_EXPORT_DETAIL PieceMeans piece_means(const Hierarchy& hierarchy, const float* samples);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

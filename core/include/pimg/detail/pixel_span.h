@@ -9,6 +9,7 @@
 #include <pimg/types.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// a / b rounded down; b is positive.
 inline std::int64_t floor_div(std::int64_t a, std::int64_t b)
@@ -41,4 +42,5 @@ inline PixelSpan pixel_span(const Point (&p)[3], std::int64_t y)
     return s;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

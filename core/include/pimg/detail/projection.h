@@ -5,6 +5,7 @@
 #include <pimg/types.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// A face (s, a, b) of the star of s, by the places of a and b in the ring, and how a point p lies in it.
 struct StarFace {
@@ -53,6 +54,7 @@ inline Projection projection(const StarFace& face, const Index* ring, std::int64
 /// Where `p` lies in the star of s. `ring` is that of s in the coarser mesh starting with vr of the split; the first
 /// face that holds p is taken, from exact integers: everybody who replays the splits finds the same stencil. `points`
 /// are the positions of the ring's vertices.
-Projection project(Point p, Point s, int degree, const Index* ring, const Point* points);
+PIMG_EXPORT_DETAIL Projection project(Point p, Point s, int degree, const Index* ring, const Point* points);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

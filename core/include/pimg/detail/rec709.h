@@ -7,7 +7,9 @@
 
 #include <pimg/detail/elementary.h>
 
-namespace pimg::elementary {
+namespace pimg {
+inline namespace PIMG_ABI {
+namespace elementary {
 
 /// The weights of linear red, green and blue in the luminance.
 inline constexpr std::array<float, 3> kRec709Weights { 0.2126f, 0.7152f, 0.0722f };
@@ -32,4 +34,6 @@ inline float lightness(float luminance)
                                          : luminance * (24389.0f / 27.0f);
 }
 
-}  // namespace pimg::elementary
+}  // namespace elementary
+}  // namespace PIMG_ABI
+}  // namespace pimg

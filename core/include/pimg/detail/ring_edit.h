@@ -5,6 +5,7 @@
 #include <pimg/ring.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Place of `x` in the first `degree` entries, or -1.
 inline int find(const Ring& ring, int degree, Index x)
@@ -83,4 +84,5 @@ bool merge_rings(const RingOf& t, const RingOf& u, MergedRing& merged, DegreeOf&
     return true;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -11,16 +11,19 @@
 #include <mutex>
 #include <thread>
 
+#include <pimg/abi.h>
+
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// What stop_point() throws.
-class Stopped : public std::exception {
+class PIMG_EXPORT_DETAIL Stopped : public std::exception {
 public:
     const char* what() const noexcept override { return "stopped"; }
 };
 
 /// While it lives, what is begun on this thread can be stopped. Only work in such a scope ever throws Stopped.
-class StopScope {
+class PIMG_EXPORT_DETAIL StopScope {
 public:
     /// goes_on() says whether the work goes on. It is called on this thread only, and not more often than every few
     /// milliseconds; after it has returned false it is not called again.
@@ -59,7 +62,7 @@ private:
 
 /// Throws Stopped if the work on this thread is to stop. It costs some ten nanoseconds, and without a scope next to nothing:
 /// loops call it for some thousand items at once. Between two calls there may be at most 10 milliseconds.
-void stop_point();
+PIMG_EXPORT_DETAIL void stop_point();
 
 /// Calls body(first, last) for the ranges of `step` numbers, from 0 on and the last one shorter, that together are those
 /// below n; a stop point before each.
@@ -78,6 +81,7 @@ void in_stages(Number n, Number step, Body&& body)
 constexpr std::uint32_t kBetweenStops = 1 << 16;
 
 /// Locks the mutex, for what may be locked for long; a stop point while it waits.
-std::unique_lock<std::mutex> lock_or_stop(std::mutex& mutex);
+PIMG_EXPORT_DETAIL std::unique_lock<std::mutex> lock_or_stop(std::mutex& mutex);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

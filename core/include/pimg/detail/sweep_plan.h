@@ -11,10 +11,13 @@
 #include <memory>
 #include <vector>
 
+#include <hwy/cache_control.h>
+
 #include <pimg/bands.h>
 #include <pimg/detail/lanes.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// A split by the places of its vertices' values.
 struct PlannedSplit {
@@ -28,7 +31,7 @@ struct SweepTask {
     std::size_t after;
 };
 
-class SweepPlan {
+class PIMG_EXPORT_DETAIL SweepPlan {
 public:
     /// Takes as long as ten plain sweeps and keeps 44 bytes a split. Pictures a few pixels wide or high are left as
     /// they are.
@@ -115,7 +118,7 @@ std::vector<T> SweepPlan::in_order(const std::vector<T>& of_splits, const Parall
         constexpr Level kAhead = 24;
         for (Level j = first; j < last; ++j) {
             if (j + kAhead < m_levels)
-                __builtin_prefetch(&of_splits[m_order[j + kAhead]]);
+                hwy::Prefetch(&of_splits[m_order[j + kAhead]]);
             ordered[j] = of_splits[m_order[j]];
         }
     });
@@ -133,7 +136,7 @@ void SweepPlan::visit_splits(Level first, Level last, Visit&& visit) const
     constexpr std::ptrdiff_t kAhead = 2048;  // bytes: past the end of a page, where the processor's own guesses stop
     for (Level i = first; i < last; ++i) {
         const PlannedSplit& k = m_splits[i];
-        __builtin_prefetch(reinterpret_cast<const char*>(&k) + kAhead);
+        hwy::Prefetch(reinterpret_cast<const char*>(&k) + kAhead);
         visit(i, k);
     }
 }
@@ -166,4 +169,5 @@ void SweepPlan::scatter_channels(const Hierarchy& hierarchy, const float* values
         interpolate_between(hierarchy, samples[c], parallel);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

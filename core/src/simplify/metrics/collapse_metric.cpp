@@ -11,6 +11,7 @@
 #include <queue>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -287,4 +288,5 @@ bool collapse_all(PlainMesh& mesh, CollapseMetric& metric, const Progress& progr
     return true;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

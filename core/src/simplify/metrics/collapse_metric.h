@@ -13,6 +13,7 @@
 #include "simplify/collapse_record.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// The mesh while it is being simplified; vertices are mesh pixels and keep their numbers.
 struct PlainMesh {
@@ -60,4 +61,5 @@ std::unique_ptr<CollapseMetric> exact_metric(PlainMesh& mesh);
 bool collapse_all(PlainMesh& mesh, CollapseMetric& metric, const Progress& progress, CollapseSequence& sequence,
                   SimplifyStats& stats);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

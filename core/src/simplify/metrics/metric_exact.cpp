@@ -9,6 +9,7 @@
 #include "simplify/metrics/collapse_metric.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -86,4 +87,5 @@ std::unique_ptr<CollapseMetric> exact_metric(PlainMesh& mesh)
     return std::make_unique<ExactMetric>(mesh);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -8,6 +8,7 @@
 #include "simplify/metrics/collapse_metric.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -201,4 +202,5 @@ std::unique_ptr<CollapseMetric> quadric_metric(PlainMesh& mesh)
     return std::make_unique<QuadricMetric>(mesh);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -8,10 +8,13 @@
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/strutil.h>
 
+#include <pimg/abi.h>
+
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// What OIIO::Strutil::fmt::format() returns.
-std::string format_packed(fmt::string_view pattern, fmt::format_args arguments);
+PIMG_EXPORT_DETAIL std::string format_packed(fmt::string_view pattern, fmt::format_args arguments);
 
 template<class... Arguments>
 std::string format(const char* pattern, const Arguments&... arguments)
@@ -20,7 +23,7 @@ std::string format(const char* pattern, const Arguments&... arguments)
 }
 
 /// The text as a JSON string, in quotation marks; names of files and channels may hold any character.
-std::string quoted_json(const std::string& text);
+PIMG_EXPORT_DETAIL std::string quoted_json(const std::string& text);
 
 /// Gives `picture` a message, as its errorfmt() does.
 inline void set_error(const OIIO::ImageBuf& picture, const std::string& message)
@@ -30,6 +33,7 @@ inline void set_error(const OIIO::ImageBuf& picture, const std::string& message)
 
 /// A message as users see it, for what it quotes may be of any length and hold anything: one line of at most 1500 bytes, the
 /// middle left out of it and of every word over 300, line breaks as spaces, other control characters as question marks.
-std::string one_line(const std::string& message);
+PIMG_EXPORT_DETAIL std::string one_line(const std::string& message);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -10,7 +10,10 @@
 #include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/texture.h>
 
+#include <pimg/abi.h>
+
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// ImageBufAlgo::resize() with the filter of that name, or OpenImageIO's choice for an empty one. 3.0 takes a list of
 /// keywords in place of name and width.
@@ -84,4 +87,5 @@ inline OIIO::ColorProcessorHandle display_processor(const OIIO::ColorConfig& con
 #endif
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -9,21 +9,22 @@
 #include <pimg/options.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Parses `text` as the type that `value` holds, and checks it; see set_option().
-bool parse_option(const OptionRule& rule, std::string_view text, OptionValue& value, std::string& error);
+PIMG_EXPORT bool parse_option(const OptionRule& rule, std::string_view text, OptionValue& value, std::string& error);
 
 /// Checks a value against the range or the choices of its option.
-bool check_option(const OptionRule& rule, const OptionValue& value, std::string& error);
+PIMG_EXPORT bool check_option(const OptionRule& rule, const OptionValue& value, std::string& error);
 
 /// Returns false if two of the given options set the same thing (OptionRule::sets).
-bool check_alternatives(const std::vector<const OptionRule*>& given, std::string& error);
+PIMG_EXPORT bool check_alternatives(const std::vector<const OptionRule*>& given, std::string& error);
 
 /// What OptionInfo says of one option.
-OptionInfo describe_option(const OptionRule& rule, const OptionValue& default_value);
+PIMG_EXPORT OptionInfo describe_option(const OptionRule& rule, const OptionValue& default_value);
 
 /// The message for a key that is not among the `known` ones.
-std::string unknown_option(std::string_view key, const std::vector<std::string_view>& known);
+PIMG_EXPORT std::string unknown_option(std::string_view key, const std::vector<std::string_view>& known);
 
 template<class T>
 bool set_option(T& options, std::string_view key, std::string_view value, std::string& error)
@@ -78,4 +79,5 @@ std::vector<OptionInfo> describe_options()
     return infos;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

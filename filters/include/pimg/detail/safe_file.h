@@ -7,12 +7,15 @@
 
 #include <OpenImageIO/filesystem.h>
 
+#include <pimg/abi.h>
+
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// A file that takes the place of its target when it is complete. It is made beside the target, under another name, with
 /// the target's permissions; a link stays a link, and what it leads to is replaced. A target that is a pipe or a device
 /// is written to directly. Without keep() nothing stays and the target is as it was.
-class SafeFile {
+class PIMG_EXPORT_DETAIL SafeFile {
 public:
     SafeFile() = default;
     ~SafeFile();
@@ -49,10 +52,10 @@ private:
 };
 
 /// Writes all of a file or nothing; false with an error in the system's words.
-bool write_whole_file(const std::string& target, const std::string& bytes, std::string& error);
+PIMG_EXPORT_DETAIL bool write_whole_file(const std::string& target, const std::string& bytes, std::string& error);
 
 /// A SafeFile for writers of OpenImageIO. Many of them do not look at what write() returns: error() of the file knows.
-class SafeFileProxy final : public OIIO::Filesystem::IOProxy {
+class PIMG_EXPORT_DETAIL SafeFileProxy final : public OIIO::Filesystem::IOProxy {
 public:
     explicit SafeFileProxy(SafeFile& file) : IOProxy(file.name(), Write), m_file(file) { }
     ~SafeFileProxy() override { flush_buffer(); }
@@ -83,4 +86,5 @@ private:
     mutable std::string m_buffer;  ///< bytes before m_pos that the file has not got yet
 };
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

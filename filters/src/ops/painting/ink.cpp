@@ -20,6 +20,7 @@
 #include "source/lab.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 namespace ImageBufAlgo {
 
 namespace {
@@ -260,4 +261,5 @@ bool on_hierarchy::ink(ImageBuf& dst, const ProgressiveImage& src, const InkOpti
 }
 
 }  // namespace ImageBufAlgo
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -13,6 +13,7 @@
 #include "source/wrap/wrapped_pieces.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 namespace ImageBufAlgo {
 
 namespace {
@@ -114,4 +115,5 @@ bool on_hierarchy::mosaic(ImageBuf& dst, const ProgressiveImage& src, const Mosa
 }
 
 }  // namespace ImageBufAlgo
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -17,6 +17,7 @@
 #include "ops/painting/wrapped_marks.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 namespace ImageBufAlgo {
 
 namespace {
@@ -277,4 +278,5 @@ bool on_hierarchy::paint(ImageBuf& dst, const ProgressiveImage& src, const Paint
 }
 
 }  // namespace ImageBufAlgo
+}  // namespace PIMG_ABI
 }  // namespace pimg

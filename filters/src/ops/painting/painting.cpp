@@ -12,6 +12,7 @@
 #include <pimg/detail/safe_file.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -184,4 +185,5 @@ bool write_strokes(const std::string& filename, const Strokes& strokes, const Sh
     return false;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

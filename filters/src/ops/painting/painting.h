@@ -12,6 +12,7 @@
 #include "source/progressive_image_data.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Channels that own their samples.
 struct OwnedChannels {
@@ -46,4 +47,5 @@ bool write_strokes(const std::string& filename, const Strokes& strokes, const Sh
 /// Checks the extension before any work is done.
 bool check_strokes_name(const std::string& filename, std::string& error);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -115,4 +116,5 @@ Drawing wrapped_drawing(const Wrap& wrap, const Drawing& drawing)
     return result;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -9,6 +9,7 @@
 #include "source/wrap/wrap.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Keeps the strokes whose middle is in the picture, or at most `overlap` pixels beyond a seam, where there might be holes
 /// otherwise, and repeats those that reach across. Places stay those of the padded picture. Repeated strokes have the
@@ -21,4 +22,5 @@ Strokes without_margins(const Wrap& wrap, Strokes strokes);
 /// A drawing of the picture, of the lines whose middle is in it, repeated where they reach across a seam.
 Drawing wrapped_drawing(const Wrap& wrap, const Drawing& drawing);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -7,6 +7,7 @@
 #include "source/wrap/wrapped_pieces.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -103,4 +104,5 @@ Tiling wrapped_tiling(const Wrap& wrap, const Tiling& tiling, Index tiles)
     return result;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

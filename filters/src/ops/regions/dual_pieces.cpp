@@ -9,6 +9,7 @@
 #include "source/wrap/wrapped_pieces.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 namespace ImageBufAlgo {
 
 bool on_hierarchy::dual_pieces(ImageBuf& dst, const ProgressiveImage& src, const DualPiecesOptions& options, ROI roi,
@@ -36,4 +37,5 @@ bool on_hierarchy::dual_pieces(ImageBuf& dst, const ProgressiveImage& src, const
 }
 
 }  // namespace ImageBufAlgo
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -6,6 +6,7 @@
 #include <pimg/detail/format.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -78,4 +79,5 @@ bool write_labels(OIIO::ImageBuf& dst, OIIO::ROI roi, const Index* labels, std::
     }
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

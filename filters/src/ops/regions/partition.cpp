@@ -6,6 +6,7 @@
 #include <pimg/labels.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -73,4 +74,5 @@ bool write_partition(ImageBuf& dst, const ProgressiveImage::Data& data, ROI roi,
     return true;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

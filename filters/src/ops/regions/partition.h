@@ -8,6 +8,7 @@
 #include "frame/image_filter.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Every pixel's part, of the picture without margins.
 struct Partition {
@@ -22,4 +23,5 @@ bool prepare_partition(OIIO::ImageBuf& dst, const ProgressiveImage& src, OIIO::R
 bool write_partition(OIIO::ImageBuf& dst, const ProgressiveImage::Data& data, OIIO::ROI roi,
                      const ParallelFor& parallel, const Partition& partition, const std::string& output);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -14,6 +14,7 @@
 #include <pimg/detail/safe_file.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -143,4 +144,5 @@ bool write_region_report(const ProgressiveImage::Data& data, const Partition& re
     return true;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -8,6 +8,7 @@
 #include "ops/regions/partition.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Writes one record per region to `filename`: JSON if its extension says so, else CSV with a header line. Fields:
 /// label, pixels, centroid x and y, bounding box xmin ymin xmax ymax (inclusive), and mean and standard deviation of
@@ -16,4 +17,5 @@ namespace pimg {
 bool write_region_report(const ProgressiveImage::Data& data, const Partition& regions, const std::string& filename,
                          std::string& error);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

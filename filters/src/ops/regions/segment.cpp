@@ -13,6 +13,7 @@
 #include "ops/regions/region_report.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 namespace ImageBufAlgo {
 
 namespace {
@@ -59,4 +60,5 @@ bool on_hierarchy::segment(ImageBuf& dst, const ProgressiveImage& src, const Seg
 }
 
 }  // namespace ImageBufAlgo
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -8,6 +8,7 @@
 #include <pimg/colour.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 PlannedBands::PlannedBands(std::shared_ptr<const SweepPlan> made, const Bands& bands, const ParallelFor& parallel)
     : shared(std::move(made)),
@@ -137,4 +138,5 @@ void compress_residual(const Hierarchy& hierarchy, const Bands& bands, const Det
     }
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

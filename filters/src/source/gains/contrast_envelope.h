@@ -13,6 +13,7 @@
 #include "source/samples/noise.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Bands ready to be swept again and again: details in the order of a plan. If that is the hierarchy's, they are those of
 /// `bands`, which must live as long.
@@ -75,4 +76,5 @@ void compress(const PlannedBands& bands, const DetailGain& gain, const SizeGains
 void compress_residual(const Hierarchy& hierarchy, const Bands& bands, const DetailGain& gain, float coherence,
                        const std::vector<float>& picture, std::vector<float>& compressed);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

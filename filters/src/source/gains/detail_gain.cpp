@@ -11,6 +11,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace pimg {
+inline namespace PIMG_ABI {
 namespace HWY_NAMESPACE {
 
 /// x^exponent for x >= 0 by squaring.
@@ -89,11 +90,13 @@ void compress_details(const DetailGain& parameters, const float* details, const 
 }
 
 }  // namespace HWY_NAMESPACE
+}  // namespace PIMG_ABI
 }  // namespace pimg
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace pimg {
+inline namespace PIMG_ABI {
 
 HWY_EXPORT(gains_of);
 HWY_EXPORT(compress_details);
@@ -110,5 +113,6 @@ void DetailGain::apply(const Detail* details, const SplitTraits& traits, std::si
     HWY_DYNAMIC_DISPATCH(compress_details)(*this, &details->t, traits, count, &compressed->t);
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg
 #endif

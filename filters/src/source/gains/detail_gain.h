@@ -7,6 +7,7 @@
 #include <pimg/bands.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// What decides the gains of some splits; each array has a number for every split.
 struct SplitTraits {
@@ -31,4 +32,5 @@ struct DetailGain {
     void apply(const Detail* details, const SplitTraits& traits, std::size_t count, Detail* compressed) const;
 };
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -5,6 +5,7 @@
 #include <cmath>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -72,4 +73,5 @@ std::vector<FeatureSize> feature_sizes(const SweepPlan& plan, const std::vector<
     return sizes;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -9,6 +9,7 @@
 #include <pimg/detail/sweep_plan.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// How far the features that a split adds are fine, of middle size and coarse, in 255ths. Together they are less than 255
 /// where the split has much contrast.
@@ -36,4 +37,5 @@ std::vector<FeatureSize> feature_sizes(const SweepPlan& plan, const std::vector<
 /// For each split, how many pixels the smaller of its two vertices stands for.
 std::vector<float> pixels_of_splits(const SweepPlan& plan);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

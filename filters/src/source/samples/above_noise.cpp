@@ -7,6 +7,7 @@
 #include <pimg/detail/parallel.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -48,4 +49,5 @@ std::vector<float> share_above_noise(const Channels& texture, const std::vector<
     return squares;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

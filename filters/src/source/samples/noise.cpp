@@ -11,6 +11,7 @@
 #include <pimg/detail/parallel.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -153,4 +154,5 @@ NoiseTable::NoiseTable(const NoiseModel& noise)
     }
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -7,6 +7,7 @@
 #include "source/guide.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// The variance of a luminance Y is read + photon * Y, in the squares of the picture's units. Both are 0 for a picture
 /// without noise.
@@ -49,4 +50,5 @@ private:
     std::vector<float> m_values;
 };
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -6,6 +6,7 @@
 #include <pimg/detail/parallel.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -140,4 +141,5 @@ std::vector<FilledPixel> find_ringing(const OIIO::ImageBuf& picture, const Colou
     return found;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -8,6 +8,7 @@
 #include "source/guide.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// Finds the pixels that ring, in order, and gives each three quarters of the light around it and its colour: still
 /// darker than that, but no hole. `luminance` is that of every pixel, in linear light. A pixel rings if most of the 24
@@ -17,4 +18,5 @@ namespace pimg {
 std::vector<FilledPixel> find_ringing(const OIIO::ImageBuf& picture, const Colour& colour, const Raster& luminance,
                                       const ParallelFor& parallel);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -7,6 +7,7 @@
 #include <pimg/detail/elementary.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 std::vector<float> latitude_weights(const Wrap& wrap)
 {
@@ -31,4 +32,5 @@ std::vector<Raster> weighted_by_latitude(const std::vector<Raster>& channels, co
     return result;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

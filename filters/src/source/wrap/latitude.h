@@ -9,6 +9,7 @@
 #include "source/wrap/wrap.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// The cosine of the latitude of each row of the padded picture, above 0. The picture shows 360 degrees from left to right
 /// and as many to a pixel from top to bottom, but at most 180 in all, with the horizon in the middle.
@@ -18,4 +19,5 @@ std::vector<float> latitude_weights(const Wrap& wrap);
 /// meshes, the cost of simplification, is then multiplied by it, as if pixels had the area that they have on the sphere.
 std::vector<Raster> weighted_by_latitude(const std::vector<Raster>& channels, const Wrap& wrap);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -6,6 +6,7 @@
 #include <OpenImageIO/strutil.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -96,4 +97,5 @@ OIIO::ImageBuf padded(const OIIO::ImageBuf& picture, const Wrap& wrap)
     return all;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -12,6 +12,7 @@
 #include <pimg/types.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 struct Wrap {
     bool x = false, y = false;       ///< whether left and right, top and bottom meet
@@ -88,4 +89,5 @@ std::vector<T> with_margins(const Wrap& wrap, std::vector<T> raster)
     return all;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

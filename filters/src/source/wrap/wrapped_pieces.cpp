@@ -6,6 +6,7 @@
 #include <pimg/dual_pieces.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -108,4 +109,5 @@ std::vector<Index> wrapped_pieces(const Wrap& wrap, const std::vector<Index>& la
     return result;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -7,6 +7,7 @@
 #include "source/wrap/wrap.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// For each pixel of the picture, row-major, the pixel of the padded picture whose piece it belongs to. `labels` are the
 /// pieces of the padded picture, 0 .. count - 1. Those whose middle lies in the picture are kept, wherever they reach;
@@ -16,4 +17,5 @@ std::vector<Index> piece_places(const Wrap& wrap, const std::vector<Index>& labe
 /// The pieces by these places, numbered from 0 in the order of their first pixel. `count` becomes their number.
 std::vector<Index> wrapped_pieces(const Wrap& wrap, const std::vector<Index>& labels, Index& count);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg
