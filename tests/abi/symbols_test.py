@@ -17,7 +17,7 @@ LIBRARIES = ("core", "codec", "painting", "filters", "gainmap")
 LISTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "symbols")
 # By the name of the file, up to its first dot: what Python, GEGL and OpenFX ask a module for.
 ENTRY_POINTS = {"_pimg": {"PyInit__pimg"}, "pimg": {"gegl_module_query", "gegl_module_register"},
-                "pimg_ofx": {"OfxGetNumberOfPlugins", "OfxGetPlugin", "OfxSetHost"}}
+                "pimg_ofx": {"OfxGetNumberOfPlugins", "OfxGetPlugin"}}
 # What the standard library calls its types, as users write them.
 SPELLINGS = ((r"std::__cxx11::basic_string<char, std::char_traits<char>, std::allocator<char> >", "std::string"),
              (r"std::basic_string_view<char, std::char_traits<char> >", "std::string_view"),
