@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <queue>
+#include <cstring>
 
 #include <pimg/detail/elementary.h>
 #include <pimg/detail/stop.h>
@@ -30,7 +30,7 @@ constexpr double kPower = 0.6;
 constexpr int kRounds = 3;
 
 /// Pixels across a cell that the first rounds need; larger pictures are shrunk for them.
-constexpr float kEnough = 16.0f;
+constexpr float kEnough = 8.0f;
 
 struct Seed {
     Vec2 place;          ///< in pixels of the picture
@@ -61,6 +61,43 @@ std::vector<Seed> seeds_of(const Mesh& mesh, const ShadePicture& picture)
     return seeds;
 }
 
+/// A place that a seed may take.
+struct Claim {
+    Index at, seed;
+};
+
+/// Claims, the nearest first, to about 1 % of their distances: those of a bucket have the same exponent and the same first
+/// seven bits of the mantissa. The last to come is the first to go, which keeps to memory just used.
+class ClaimQueue {
+public:
+    ClaimQueue() : m_buckets(std::size_t(1) << 15) { }
+
+    void push(float distance, Claim claim)
+    {
+        std::uint32_t bits = 0;
+        std::memcpy(&bits, &distance, sizeof bits);
+        const std::size_t bucket = bits >> 16;  // distances are not negative, so that their bits are in their order
+        m_buckets[bucket].push_back(claim);
+        m_first = std::min(m_first, bucket);
+    }
+
+    /// False if none is left.
+    bool pop(Claim& claim)
+    {
+        while (m_first < m_buckets.size() && m_buckets[m_first].empty())
+            ++m_first;
+        if (m_first == m_buckets.size())
+            return false;
+        claim = m_buckets[m_first].back();
+        m_buckets[m_first].pop_back();
+        return true;
+    }
+
+private:
+    std::vector<std::vector<Claim>> m_buckets;
+    std::size_t m_first = 0;
+};
+
 /// One round on a grid of every `step`-th pixel.
 class Growth {
 public:
@@ -78,19 +115,18 @@ public:
     {
         for (Index s = 0; s < Index(m_seeds.size()); ++s)
             push(int(m_seeds[s].place.x) / m_step, int(m_seeds[s].place.y) / m_step, s);
-        for (std::size_t popped = 0; !m_queue.empty(); ++popped) {
+        Claim claim {};
+        for (std::size_t popped = 0; m_queue.pop(claim); ++popped) {
             if (popped % 65536 == 0)
                 stop_point();
-            const Entry entry = m_queue.top();
-            m_queue.pop();
-            if (m_cell[entry.at] != kGhost)
+            if (m_cell[claim.at] != kGhost)
                 continue;
-            m_cell[entry.at] = entry.seed;
-            const int x = int(entry.at % std::size_t(m_columns)), y = int(entry.at / std::size_t(m_columns));
-            push(x - 1, y, entry.seed);
-            push(x + 1, y, entry.seed);
-            push(x, y - 1, entry.seed);
-            push(x, y + 1, entry.seed);
+            m_cell[claim.at] = claim.seed;
+            const int x = int(claim.at % Index(m_columns)), y = int(claim.at / Index(m_columns));
+            push(x - 1, y, claim.seed);
+            push(x + 1, y, claim.seed);
+            push(x, y - 1, claim.seed);
+            push(x, y + 1, claim.seed);
         }
         return m_cell;
     }
@@ -122,16 +158,6 @@ public:
     }
 
 private:
-    struct Entry {
-        float distance;
-        Index seed;
-        std::size_t at;
-        bool operator<(const Entry& o) const  // the queue has the largest first
-        {
-            return distance != o.distance ? distance > o.distance : seed != o.seed ? seed > o.seed : at > o.at;
-        }
-    };
-
     Vec2 place(int x, int y) const
     {
         const float half = 0.5f * float(m_step - 1);
@@ -149,14 +175,14 @@ private:
         const Vec2 p = place(x, y);
         const float dx = p.x - seed.place.x, dy = p.y - seed.place.y;
         const float off = m_picture.distance(m_picture.at(p), seed.shade) / kAlike;
-        m_queue.push({ (dx * dx + dy * dy) * seed.inverse_size + off * off, s, at });
+        m_queue.push((dx * dx + dy * dy) * seed.inverse_size + off * off, { Index(at), s });
     }
 
     const std::vector<Seed>& m_seeds;
     const ShadePicture& m_picture;
     int m_step, m_columns, m_rows;
     std::vector<Index> m_cell;
-    std::priority_queue<Entry> m_queue;
+    ClaimQueue m_queue;
 };
 
 }  // namespace
