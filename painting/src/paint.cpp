@@ -61,6 +61,19 @@ float reach_of(const Stroke& stroke)
 /// Factors on the channels of a stroke's colour: red, green and blue, if there are three.
 using Tint = std::array<float, 3>;
 
+/// Share of white from which changes of brightness are shares of it. Below, they are as large as there, since equal
+/// differences of encoded samples look about equal. More makes shadows livelier.
+constexpr float kMiddle = 0.5f;
+/// The most by which the shares of random changes and of relief grow in the dark, so that black stays black. More relief
+/// makes strokes look as if they ran across the edges: measured as alignment, see docs/internals.md.
+constexpr float kMostChanged = 5.0f, kMostRaised = 1.8f;
+
+/// Factor, at most `most`, on a change of brightness where the channels' mean is `value`. White is 0 if it is not known.
+float lifted(float value, float white, float most)
+{
+    return white > 0.0f ? std::clamp(kMiddle * white / std::max(value, 1e-6f * white), 1.0f, most) : 1.0f;
+}
+
 /// A random change of brightness and, if there are colours, of warmth: what red gains, blue loses.
 Tint tint_of(const Stroke& stroke, float most, bool coloured)
 {
@@ -344,7 +357,11 @@ void TilePainter::paint(const Strokes& strokes, Index i, const std::vector<std::
         stop_at_edges(m_stop->shade(i), touched);
     if (m_options.ground)
         note_cover(touched);
-    const Tint tint = tint_of(stroke, m_options.jitter_colour, m_canvas.channels.size() > 2);
+    float mean = 0.0f;
+    for (std::size_t c = 0; c < m_canvas.channels.size(); ++c)
+        mean += colours[c][i] / float(m_canvas.channels.size());
+    const float jitter = std::min(1.0f, m_options.jitter_colour * lifted(mean, m_options.white, kMostChanged));
+    const Tint tint = tint_of(stroke, jitter, m_canvas.channels.size() > 2);
     blend(colours, i, tint, kThickness * std::sqrt(stroke.width), touched);
 }
 
@@ -385,13 +402,14 @@ void paint_strokes(const Strokes& strokes, const std::vector<std::vector<float>>
     });
 }
 
-void light_relief(Canvas& canvas, float strength, const ParallelFor& parallel)
+void light_relief(Canvas& canvas, float strength, const ParallelFor& parallel, float white)
 {
     if (!canvas.relief || strength <= 0.0f)
         return;
     constexpr int kRows = 32;
     // Slope at which the light has changed by 0.7 of what it changes by at most. By eye; more: only steep paint is lit.
     constexpr float kSlope = 0.5f;
+    constexpr float kMostLit = 0.9f;        // paint in the shadow of paint is never quite black
     constexpr float kRootOfHalf = 0.7071f;  // the light comes from the upper left, at 45 degrees
     const int w = canvas.width, h = canvas.height;
     run(parallel, std::size_t(h + kRows - 1) / kRows, [&](std::size_t block) {
@@ -402,8 +420,12 @@ void light_relief(Canvas& canvas, float strength, const ParallelFor& parallel)
                 const float gx = 0.5f * (here[std::min(x + 1, w - 1)] - here[std::max(x - 1, 0)]);
                 const float gy = 0.5f * (below[x] - above[x]);
                 const float slope = kRootOfHalf * (gx + gy);  // above 0 where the paint faces the light
-                const float light = 1.0f + 0.5f * strength * slope / std::sqrt(kSlope * kSlope + slope * slope);
                 const std::size_t at = std::size_t(y) * std::size_t(w) + std::size_t(x);
+                float mean = 0.0f;
+                for (const float* channel : canvas.channels)
+                    mean += channel[at] / float(canvas.channels.size());
+                const float most = std::min(kMostLit, 0.5f * strength * lifted(mean, white, kMostRaised));
+                const float light = 1.0f + most * slope / std::sqrt(kSlope * kSlope + slope * slope);
                 for (float* channel : canvas.channels)
                     channel[at] *= light;
             }

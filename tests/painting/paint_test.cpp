@@ -157,6 +157,23 @@ TEST(Paint, ChangesColoursOfStrokesByChance)
     EXPECT_GT(*most - *least, 10.0f);
 }
 
+TEST(Paint, ChangesDarkColoursAsMuchAsMiddleOnesIfWhiteIsKnown)
+{
+    const auto spread = [](int value, float white) {
+        const PaintedScene flat(test::make("constant", 90, 70, [=](int, int) { return value; }));
+        StrokePaintOptions settings;
+        settings.jitter_colour = 0.1f;
+        settings.white = white;
+        const std::vector<float> canvas = painted(flat, {}, Brush::named("round"), settings, float(value));
+        const auto [least, most] = std::minmax_element(canvas.begin(), canvas.end());
+        return *most - *least;
+    };
+    EXPECT_NEAR(spread(40, 250.0f), spread(125, 0.0f), 2.0f);
+    EXPECT_FLOAT_EQ(spread(125, 250.0f), spread(125, 0.0f));
+    EXPECT_FLOAT_EQ(spread(200, 250.0f), spread(200, 0.0f));
+    EXPECT_LT(spread(2, 250.0f), 2.5f) << "black stays black";
+}
+
 TEST(Paint, ShowsTheGroundInHoles)
 {
     const PaintedScene scene(test::scene(80, 60));
@@ -183,6 +200,20 @@ TEST(Relief, EvenPaintKeepsItsColour)
     Canvas canvas { 10, 10, { color.data() }, relief.data() };
     light_relief(canvas, 1.0f);
     EXPECT_EQ(color, std::vector<float>(100, 3.5f));
+}
+
+TEST(Relief, IsStrongerInTheDarkIfWhiteIsKnown)
+{
+    const auto change = [](float value, float white) {
+        std::vector<float> color(90, value), relief(90);
+        for (std::size_t i = 0; i < relief.size(); ++i)
+            relief[i] = i % 9 == 4 ? 3.0f : 0.0f;
+        Canvas canvas { 9, 10, { color.data() }, relief.data() };
+        light_relief(canvas, 0.4f, {}, white);
+        return color[3] / value - 1.0f;
+    };
+    EXPECT_GT(change(0.2f, 1.0f), 1.5f * change(0.2f, 0.0f));
+    EXPECT_FLOAT_EQ(change(0.6f, 1.0f), change(0.6f, 0.0f));
 }
 
 TEST(Relief, IsLitFromTheUpperLeft)

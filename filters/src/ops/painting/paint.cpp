@@ -244,10 +244,11 @@ bool paint_canvas(ProgressiveImage::Data& data, const PaintOptions& options, con
     settings.jitter_colour = options.jitter_colour;
     settings.edges = &guides;
     settings.crossing = planning.crossing;
+    settings.white = data.colour.encoded() ? 1.0f : 0.0f;
     settings.ground = studio.on_the_picture || options.cover < 1.0f ? nullptr : &ground;
     settings.parallel = parallel;
     paint_strokes(strokes, colours, studio.brush, settings, canvas);
-    light_relief(canvas, options.impasto, parallel);
+    light_relief(canvas, options.impasto, parallel, settings.white);
     if (options.opacity > 0.0f || !studio.on_the_picture)
         apply_alpha(data, picture, studio);
     for (std::vector<float>& channel : studio.canvas.channels) {
