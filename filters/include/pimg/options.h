@@ -263,6 +263,7 @@ struct InkOptions {
     float width = 0.0f;           ///< the same in pixels; 0: found from pen and paper
     float spacing = 2.0f;         ///< least distance of hatching lines, in widths of the pen
     float detail = 0.5f;          ///< 0: outlines of the large features only; 1: of every edge
+    float light = 0.0f;           ///< 0: tones of the picture; 1: half of the paper light, whatever the picture
     float length = 1.0f;          ///< factor on the length of hatching lines
     float density = 1.0f;         ///< factor on the darkness; 0: outlines only
     float outline = 1.0f;         ///< factor on the width of outlines; 0: none

@@ -481,6 +481,8 @@ const std::vector<Option<InkOptions>>& option_table<InkOptions>()
         { &T::spacing,
           { "spacing", 1, 20, "widths of the pen", "", "least distance of hatching lines, from middle to middle" } },
         { &T::detail, { "detail", 0, 1, "", "", "0: outlines of the large features only; 1: of every edge" } },
+        { &T::light,
+          { "light", 0, 1, "", "", "0: tones of the picture; 1: half of the paper light, whatever the picture" } },
         { &T::length, { "length", 0.1, 10, "", "", "factor on the length of hatching lines" } },
         { &T::density, { "density", 0, 4, "", "", "factor on the darkness; 0: outlines only" } },
         { &T::outline, { "outline", 0, 4, "", "", "factor on the width of outlines; 0: none" } },

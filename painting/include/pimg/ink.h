@@ -31,6 +31,7 @@ struct PenOptions {
     InkStyle style = InkStyle::hatch;
     float spacing = 2.0f;  ///< least distance of hatching lines from middle to middle, in pens, 1..20
     float detail = 0.5f;   ///< 0..1: with more, weaker and shorter edges get outlines
+    float light = 0.0f;    ///< 0..1: 0: tones of the picture; 1: its lightest places are white, and half of it is light
 };
 
 using PenSettings [[deprecated("renamed: PenOptions")]] = PenOptions;
@@ -39,17 +40,17 @@ using PenSettings [[deprecated("renamed: PenOptions")]] = PenOptions;
 struct InkPicture {
     int width = 0, height = 0;         ///< in pixels
     const float* lightness = nullptr;  ///< L*, 0..100; values outside count as the nearer end
-    ChannelsView features;             ///< up to three channels in 8-bit steps, without texture and noise
-    ChannelsView base;                 ///< the same with only the important features left
+    ChannelsView features;             ///< up to three channels in 8-bit steps, whose features are drawn
+    ChannelsView base;                 ///< deprecated: not used
     std::vector<Ink> inks { Ink { { 0.0f, 0.0f, 0.0f }, 0.0f } };  ///< the first is black, for outlines and shadows
     const std::uint8_t* ink = nullptr;  ///< of each pixel: the ink of its light tones; null: the first everywhere
 };
 
 /// Draws a picture.
 ///
-/// *Outlines* follow the edges of `features`, the more so if `base` has them, too; their width follows the contrast, and
-/// their ends taper. *Hatching* lines are streamlines of a direction field of `base`, at even distances that follow the
-/// tone (Jobard and Lefer 1997); they end at edges. Their width is then adjusted until the drawing, seen from afar, has
+/// *Outlines* follow edges and thin lines: those that survive strong smoothing, and those on borders of segments that
+/// survive many merges. Their width follows the contrast, and their ends taper. *Hatching* lines are streamlines of a
+/// direction field of the large forms, at even distances that follow the tone (Jobard and Lefer 1997); they end at edges. Their width is then adjusted until the drawing, seen from afar, has
 /// the picture's L*, from that of the paper down to the darkest that lines `spacing` apart can give. *Dots* are the
 /// centres of a weighted Voronoi diagram of the tone (Secord 2002).
 ///

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Plans a drawing on a grid of its own, two cells to a pen, so that it does not depend on the picture's resolution:
 //
-//     features, base -> outlines ----------------------------+--> widths that match the tone --> drawing
+//     channels -> study -> outlines -------------------------+--> widths that match the tone --> drawing
 //     lightness less what outlines cover -> hatching or dots -+
 #include <pimg/detail/elementary.h>
 #include <pimg/detail/parallel.h>
@@ -14,6 +14,7 @@
 #include "drawing/outlines.h"
 #include "drawing/raster_ops.h"
 #include "drawing/stipple.h"
+#include "drawing/study.h"
 
 namespace pimg {
 inline namespace PIMG_ABI {
@@ -32,9 +33,17 @@ constexpr float kMostAcross = 0.85f;                    ///< most of the second;
 constexpr float kLeastAcross = 0.06f;
 constexpr float kCrossing = 68.0f;      ///< degrees between the two directions
 constexpr float kUnderOutlines = 0.8f;  ///< share of what outlines cover that hatching spares
-constexpr float kStop = 0.4f;           ///< cover by outlines at which hatching ends
-constexpr int kRounds = 3;              ///< of matching the tone; measured: a fourth changes the error by 1 % of it
-constexpr float kSeen = 1.6f;           ///< standard deviation of the blur of matching, in distances of lines
+constexpr float kFinest =
+    0.5f;  ///< blur in cells of what outlines are found in; more: pictures of fewer pixels give the same
+constexpr float kTone = 1.0f;       ///< blur in pens of the tones that distances follow; widths follow the rest
+constexpr float kStop = 0.4f;       ///< cover by outlines at which hatching ends
+constexpr float kHalo = 0.6f;       ///< how far in pens an outline keeps dark hatching away; more: clearer outlines
+constexpr float kHaloStop = 0.12f;  ///< cover, blurred by as much, at which dark hatching ends
+constexpr float kHaloFrom = 0.15f, kHaloFull = 0.4f;  ///< cover by hatching from which it does so, and fully
+constexpr float kHighlight = 0.3f;                    ///< cover by highlights at which hatching ends
+constexpr float kHighKey = 0.68f;  ///< L* / 100 that half of the paper reaches with all the light there is
+constexpr int kRounds = 3;         ///< of matching the tone; measured: a fourth changes the error by 1 % of it
+constexpr float kSeen = 1.6f;      ///< standard deviation of the blur of matching, in distances of lines
 constexpr float kThinner = 0.6f, kThicker = 1.6f;     ///< factors on a width in a round
 constexpr float kThinnest = 0.55f, kThickest = 1.8f;  ///< widths in pens
 constexpr float kTolerance = 0.06f;                   ///< of leaving out points, in pens: not seen in print
@@ -43,7 +52,7 @@ constexpr float kTolerance = 0.06f;                   ///< of leaving out points
 struct Plate {
     int width = 0, height = 0;
     float pen = kCellsPerPen;
-    std::vector<Raster> features, base;
+    Study study;
     Raster tone;                       ///< wanted L* / 100
     std::vector<std::uint8_t> ink_of;  ///< of each cell; empty: the first
     std::vector<float> lightness;      ///< L* / 100 of the inks
@@ -53,8 +62,30 @@ std::vector<Raster> on_grid(const ChannelsView& picture, int width, int height, 
 {
     std::vector<Raster> channels;
     for (const float* samples : picture.channels)
-        channels.push_back(resampled(samples, picture.width, picture.height, width, height, parallel));
+        channels.push_back(
+            blurred(resampled(samples, picture.width, picture.height, width, height, parallel), kFinest, parallel));
     return channels;
+}
+
+/// Brings tones, 0..1, nearer to those of a drawing that has its lightest place white, and half of the paper light.
+void lighten(std::vector<float>& tones, float light)
+{
+    if (light <= 0.0f)
+        return;
+    std::vector<float> sorted = tones;
+    const auto quantile = [&](double q) {
+        const auto place = sorted.begin() + std::ptrdiff_t(q * double(sorted.size() - 1));
+        std::nth_element(sorted.begin(), place, sorted.end());
+        return *place;
+    };
+    const float low = quantile(0.02), high = std::max(quantile(0.98), low + 0.05f);
+    const float middle = std::clamp((quantile(0.5) - low) / (high - low), 0.05f, 0.95f);
+    const double power = std::min(1.0, elementary::log2(double(kHighKey)) / elementary::log2(double(middle)));
+    for (float& tone : tones) {
+        const float share = std::clamp((tone - low) / (high - low), 0.0f, 1.0f);
+        const float lit = share > 0.0f ? float(elementary::power(double(share), power)) : 0.0f;
+        tone += light * (std::max(lit, tone) - tone);
+    }
 }
 
 Plate make_plate(const InkPicture& picture, const PenOptions& options)
@@ -65,12 +96,14 @@ Plate make_plate(const InkPicture& picture, const PenOptions& options)
     plate.width = std::max(2, int(w * scale + 0.5f));
     plate.height = std::max(2, int(h * scale + 0.5f));
     plate.pen = options.width * scale;
-    plate.features = on_grid(picture.features, plate.width, plate.height, options.parallel);
-    plate.base = on_grid(picture.base, plate.width, plate.height, options.parallel);
+    plate.study = make_study(on_grid(picture.features, plate.width, plate.height, options.parallel), options.parallel);
     plate.tone =
         resampled(picture.lightness, picture.width, picture.height, plate.width, plate.height, options.parallel);
     for (float& tone : plate.tone.samples)
-        tone = std::clamp(1.0f - options.density * (1.0f - 0.01f * std::clamp(tone, 0.0f, 100.0f)), kDarkest, 1.0f);
+        tone = 0.01f * std::clamp(tone, 0.0f, 100.0f);
+    lighten(plate.tone.samples, options.light);
+    for (float& tone : plate.tone.samples)
+        tone = std::clamp(1.0f - options.density * (1.0f - tone), kDarkest, 1.0f);
     for (const Ink& ink : picture.inks)
         plate.lightness.push_back(0.01f * ink.lightness);
     if (picture.ink)
@@ -82,6 +115,15 @@ Plate make_plate(const InkPicture& picture, const PenOptions& options)
                     picture.ink[std::size_t(from_y) * std::size_t(picture.width) + std::size_t(from_x)]);
             }
     return plate;
+}
+
+/// The share of each cell that a drawing covers.
+Raster covered(const Drawing& drawing, const Plate& plate, const ParallelFor& parallel)
+{
+    Raster cover = make_raster(plate.width, plate.height);
+    Canvas canvas { plate.width, plate.height, { cover.samples.data() }, nullptr };
+    render_drawing(drawing, { std::vector<float>(plate.lightness.size(), 1.0f) }, canvas, parallel);
+    return cover;
 }
 
 /// L* / 100 of a drawing.
@@ -101,7 +143,7 @@ struct Covers {
 Covers find_covers(const Plate& plate, const Raster& outlined, const PenOptions& options)
 {
     const Raster around = blurred(outlined, 2.0f * plate.pen, options.parallel);
-    const Raster tone = blurred(plate.tone, plate.pen, options.parallel);
+    const Raster tone = blurred(plate.tone, kTone * plate.pen, options.parallel);
     Covers covers { make_raster(plate.width, plate.height), make_raster(plate.width, plate.height) };
     const bool crossed = options.cross && options.style != InkStyle::stipple;
     for (std::size_t i = 0; i < tone.samples.size(); ++i) {
@@ -129,13 +171,30 @@ Drawing empty_drawing(const Plate& plate)
     return drawing;
 }
 
+/// Where hatching ends: at outlines, before them where it is dark, and at what is left white.
+Raster find_stops(const Plate& plate, const Raster& cover, const Raster& outlined, const PenOptions& options)
+{
+    Raster stops = outlined;
+    for (float& stop : stops.samples)
+        stop = 1.0f - stop;
+    const Raster near = blurred(stops, kHalo * plate.pen, options.parallel);
+    Drawing lights = empty_drawing(plate);
+    if (options.outline > 0.0f)
+        add_highlights(plate.study, { plate.pen, 1.0f, options.detail, options.parallel }, lights);
+    const Raster lit = covered(lights, plate, options.parallel);
+    for (std::size_t i = 0; i < stops.samples.size(); ++i) {
+        const float dark = std::clamp((cover.samples[i] - kHaloFrom) / (kHaloFull - kHaloFrom), 0.0f, 1.0f);
+        const bool beside = near.samples[i] > kHaloStop + (1.0f - dark);
+        stops.samples[i] = stops.samples[i] > kStop || beside || lit.samples[i] > kHighlight ? 1.0f : 0.0f;
+    }
+    return stops;
+}
+
 void hatch(const Plate& plate, const Covers& covers, const Raster& outlined, const PenOptions& options,
            Drawing& drawing)
 {
-    const FormField field(plate.base, options.style == InkStyle::hatch ? 0.8f : 0.12f, options.parallel);
-    Raster stops = outlined;
-    for (float& stop : stops.samples)
-        stop = stop < 1.0f - kStop ? 1.0f : 0.0f;
+    const FormField field(plate.study.base, options.style == InkStyle::hatch ? 1.2f : 0.12f, options.parallel);
+    const Raster stops = find_stops(plate, covers.first, outlined, options);
     HatchLayer layer;
     layer.cover = &covers.first;
     layer.stops = &stops;
@@ -194,8 +253,7 @@ void draw_ink(const InkPicture& picture, const PenOptions& options, Drawing& dra
     const Plate plate = make_plate(picture, options);
     Drawing outlines = empty_drawing(plate);
     if (options.outline > 0.0f)
-        add_outlines(plate.features, plate.base, { plate.pen, options.outline, options.detail, options.parallel },
-                     outlines);
+        add_outlines(plate.study, { plate.pen, options.outline, options.detail, options.parallel }, outlines);
     drawing = empty_drawing(plate);
     if (options.density > 0.0f) {
         const Raster outlined = seen(outlines, plate, options.parallel);
@@ -233,7 +291,7 @@ Status plan_ink(const Hierarchy&, const float* darkness, const DirectionField& f
         steps[i] = 255.0f * (1.0f - dark);
     }
     picture.lightness = lightness.data();
-    picture.features = picture.base = { picture.width, picture.height, { steps.data() } };
+    picture.features = { picture.width, picture.height, { steps.data() } };
     Drawing drawing;
     draw_ink(picture, options, drawing);
     lines = {};

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The outlines of a drawing: lines along the edges that survive in the smoothed picture.
+// The outlines of a drawing: lines along the edges of a picture, and what is left white.
 #pragma once
 
-#include <vector>
-
 #include <pimg/drawing.h>
+
+#include "drawing/study.h"
 
 namespace pimg {
 inline namespace PIMG_ABI {
@@ -17,12 +17,14 @@ struct OutlineOptions {
     ParallelFor parallel;
 };
 
-/// Adds outlines to a drawing of the pictures' size. `features` are up to three channels in units of one step of an 8-bit
-/// picture, with texture and noise removed, and say where the edges are. `base` are the same channels with all but the
-/// important features removed. An edge is as important as the geometric mean of its slopes in both, times its length:
-/// so an edge that `base` has lost needs far more contrast. A line is as wide as its edge is steep, and its ends taper.
-void add_outlines(const std::vector<Raster>& features, const std::vector<Raster>& base, const OutlineOptions& options,
-                  Drawing& drawing);
+/// Adds outlines to a drawing of the study's size: along what is dark and thinner than a pen, and along edges. An edge is
+/// as important as the geometric mean of its slopes in features and base, times its length; one on a border of segments
+/// that survive many merges counts as if the base had it, and goes on where it has little contrast. A line is as wide as
+/// its edge is steep, and its ends taper.
+void add_outlines(const Study& study, const OutlineOptions& options, Drawing& drawing);
+
+/// Adds lines along what is light and thinner than a pen, which are to be left white.
+void add_highlights(const Study& study, const OutlineOptions& options, Drawing& drawing);
 
 }  // namespace PIMG_ABI
 }  // namespace pimg

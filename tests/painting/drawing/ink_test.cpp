@@ -36,7 +36,7 @@ struct Subject {
         picture.width = width;
         picture.height = height;
         picture.lightness = lightness.data();
-        picture.features = picture.base = { width, height, { steps.data() } };
+        picture.features = { width, height, { steps.data() } };
         return picture;
     }
     Drawing drawn(const PenOptions& pen) const
@@ -135,6 +135,25 @@ TEST(Ink, OptionsDoWhatTheySay)
     EXPECT_LT(drawn([](PenOptions& p) { p.spacing = 4.0f; }).lines.size(), plain.lines.size() * 3 / 4);
     EXPECT_GT(drawn([](PenOptions& p) { p.length = 0.3f; }).lines.size(), plain.lines.size());
     EXPECT_NE(drawn([](PenOptions& p) { p.seed = 2; }).lines.size(), plain.lines.size());
+}
+
+TEST(Ink, LightMakesDarkPicturesLightAndLeavesLightOnesAlone)
+{
+    const auto mean = [](const Subject& subject, float light) {
+        PenOptions pen;
+        pen.width = 1.0f;
+        pen.light = light;
+        const Raster all = seen(subject.drawn(pen), 2.0f);
+        return std::accumulate(all.samples.begin(), all.samples.end(), 0.0f) / float(all.samples.size());
+    };
+    const Subject night(240, 160,
+                        [](int x, int y) { return 20 + x / 6 + (std::hypot(x - 120, y - 80) < 12 ? 150 : 0); });
+    const Subject day(240, 160, [](int x, int) { return 130 + x / 2; });
+    const float dark = mean(night, 0.0f), half = mean(night, 0.5f), light = mean(night, 1.0f);
+    EXPECT_LT(dark, 25.0f);
+    EXPECT_GT(half, dark + 10.0f);
+    EXPECT_GT(light, half + 10.0f);
+    EXPECT_NEAR(mean(day, 1.0f), mean(day, 0.0f), 8.0f);
 }
 
 TEST(Ink, DarkTonesOfAColourAreCrossedInBlack)

@@ -34,14 +34,31 @@ Raster disk(float contrast, float soft)
     });
 }
 
-Drawing outlined(const std::vector<Raster>& features, const std::vector<Raster>& base, float detail = 0.5f)
+/// A study of segments without borders.
+Study study_of(const std::vector<Raster>& features, const std::vector<Raster>& base)
+{
+    return { features[0], features, base, make_raster(kSize, kSize) };
+}
+
+Drawing empty()
 {
     Drawing drawing;
     drawing.width = drawing.height = kSize;
+    return drawing;
+}
+
+Drawing outlined(const Study& study, float detail = 0.5f)
+{
+    Drawing drawing = empty();
     OutlineOptions options;
     options.detail = detail;
-    add_outlines(features, base, options, drawing);
+    add_outlines(study, options, drawing);
     return drawing;
+}
+
+Drawing outlined(const std::vector<Raster>& features, const std::vector<Raster>& base, float detail = 0.5f)
+{
+    return outlined(study_of(features, base), detail);
 }
 
 Drawing outlined(const Raster& raster, float detail = 0.5f)
@@ -83,6 +100,60 @@ TEST(Outlines, NeedMoreContrastIfTheBaseHasLostThem)
     EXPECT_TRUE(outlined({ sharp }, { flat }).lines.empty());
 }
 
+TEST(Outlines, FollowBordersThatLastIfTheBaseHasLostThem)
+{
+    const Raster flat = make_raster(kSize, kSize, 40.0f), faint = disk(40.0f, 1.0f);
+    Study study = study_of({ faint }, { flat });
+    EXPECT_TRUE(outlined(study).lines.empty());
+    study.borders = make_raster(kSize, kSize, 800.0f);
+    EXPECT_EQ(outlined(study).lines.size(), 1u);
+}
+
+TEST(Outlines, GoOnAlongBordersThatLastWhereThereIsLittleContrast)
+{
+    // A step of 60 that becomes as low as 8 towards the middle, where the base has lost it.
+    const auto step = [](float faint) {
+        return picture([=](int x, int y) {
+            const float t = 0.01f * float(std::abs(y - 100));
+            return x < 100 ? 60.0f : 60.0f + std::max(faint, 60.0f * t * t);
+        });
+    };
+    Study study = study_of({ step(8.0f) }, { step(0.0f) });
+    EXPECT_GE(outlined(study).lines.size(), 2u);
+    study.borders = picture([](int x, int) { return std::abs(x - 100) < 4 ? 800.0f : 0.0f; });
+    const Drawing whole = outlined(study);
+    ASSERT_EQ(whole.lines.size(), 1u);
+    EXPECT_GT(whole.lines[0].count, 180u);
+}
+
+/// A slanting line two pixels wide.
+Raster cable(float contrast)
+{
+    return picture([=](int x, int y) {
+        const float off = std::fabs(float(y) - 60.0f - 0.3f * float(x));
+        return 120.0f + contrast * std::clamp(1.5f - off, 0.0f, 1.0f);
+    });
+}
+
+TEST(Outlines, OfAThinDarkLineAreOneLine)
+{
+    const Drawing drawing = outlined(cable(-40.0f));
+    ASSERT_EQ(drawing.lines.size(), 1u);
+    EXPECT_GT(drawing.points.size(), 180u);
+    for (const InkPoint& p : drawing.points)
+        EXPECT_NEAR(p.y, 60.0f + 0.3f * p.x, 1.0f);
+}
+
+TEST(Outlines, LeaveThinLightLinesWhite)
+{
+    OutlineOptions options;
+    Drawing light = empty(), dark = empty();
+    add_highlights(study_of({ cable(40.0f) }, { cable(40.0f) }), options, light);
+    add_highlights(study_of({ cable(-40.0f) }, { cable(-40.0f) }), options, dark);
+    EXPECT_EQ(light.lines.size(), 1u);
+    EXPECT_TRUE(dark.lines.empty());
+}
+
 TEST(Outlines, AreMoreWithMoreDetail)
 {
     const Raster grid = picture([](int x, int y) {
@@ -113,10 +184,10 @@ TEST(Outlines, DoNotDependOnTheLoop)
     for (std::size_t i = 0; i < noisy.samples.size(); ++i)
         noisy.samples[i] += 20.0f * test::noise(std::uint32_t(i), 3);
     const auto drawn = [&](const ParallelFor& parallel) {
-        Drawing drawing;
+        Drawing drawing = empty();
         OutlineOptions options;
         options.parallel = parallel;
-        add_outlines({ noisy }, { noisy }, options, drawing);
+        add_outlines(study_of({ noisy }, { noisy }), options, drawing);
         return drawing.points;
     };
     const auto a = drawn({}), b = drawn([](std::size_t n, const std::function<void(std::size_t)>&body) {

@@ -12,7 +12,6 @@
 #include <pimg/detail/safe_file.h>
 #include <pimg/drawing_file.h>
 #include <pimg/ink.h>
-#include <pimg/smoothing.h>
 
 #include "frame/image_filter.h"
 #include "ops/painting/painting.h"
@@ -24,10 +23,6 @@ inline namespace PIMG_ABI {
 namespace ImageBufAlgo {
 
 namespace {
-
-/// Strengths of smoothing, in 8-bit steps, before edges are looked for: the first removes texture and noise, the second
-/// all but the important features. Chosen by eye; more makes outlines fewer and smoother.
-constexpr float kTexture = 6.0f, kUnimportant = 20.0f;
 
 /// Number of regions from whose colours the inks are chosen. Chosen by eye; more would only take time.
 constexpr Index kRegions = 400;
@@ -42,7 +37,7 @@ constexpr float kFinestPen = 0.5f;
 /// A picture with what drawing it needs, over the mesh's pixels.
 struct Sitter {
     std::vector<float> lightness;
-    Channels features, base;
+    OwnedChannels eye;
     std::vector<std::uint8_t> ink_of;
     InkPicture picture;
 };
@@ -71,14 +66,6 @@ std::vector<float> lightness(const ProgressiveImage::Data& data, const OwnedChan
             tones[i] += 100.0f * (1.0f - std::clamp(cover[i], 0.0f, 1.0f));
     }
     return tones;
-}
-
-ChannelsView view_of(const ProgressiveImage::Data& data, const Channels& channels)
-{
-    ChannelsView view { data.hierarchy.mesh_width(), data.hierarchy.mesh_height(), {} };
-    for (const std::vector<float>& channel : channels)
-        view.channels.push_back(channel.data());
-    return view;
 }
 
 /// Chooses inks from the colours of the picture's regions.
@@ -115,24 +102,19 @@ bool fill_inkwells(ProgressiveImage::Data& data, const InkOptions& options, cons
 bool seat(ProgressiveImage::Data& data, const InkOptions& options, const ParallelFor& parallel, Sitter& sitter,
           std::string& error)
 {
-    OwnedChannels eye;
-    if (!eye_channels(data, parallel, eye, error))
+    if (!eye_channels(data, parallel, sitter.eye, error))
         return false;
     const bool coloured = options.colours > 1 && data.colour.count() == 3;
     Channels lab;
     if (data.colour.encoded() || coloured)
         lab = lab_channels(data.source, data.colour, parallel);
-    sitter.lightness = lightness(data, eye, lab);
+    sitter.lightness = lightness(data, sitter.eye, lab);
     if (coloured && !fill_inkwells(data, options, lab, parallel, sitter, error))
         return false;
-    const SmoothingSource source = analyse_for_smoothing(data.hierarchy, std::move(eye.channels));
-    smooth(data.hierarchy, source, { kTexture, parallel }, sitter.features);
-    smooth(data.hierarchy, source, { kUnimportant, parallel }, sitter.base);
     sitter.picture.width = data.hierarchy.mesh_width();
     sitter.picture.height = data.hierarchy.mesh_height();
     sitter.picture.lightness = sitter.lightness.data();
-    sitter.picture.features = view_of(data, sitter.features);
-    sitter.picture.base = view_of(data, sitter.base);
+    sitter.picture.features = sitter.eye.view();
     return true;
 }
 
@@ -226,6 +208,7 @@ bool draw(ProgressiveImage::Data& data, const InkOptions& options, const Paralle
     settings.style = style_of(options.style);
     settings.spacing = options.spacing;
     settings.detail = options.detail;
+    settings.light = options.light;
     settings.parallel = parallel;
     Drawing drawing;
     draw_ink(sitter.picture, settings, drawing);
