@@ -4,6 +4,8 @@
 
 usage: painting.py tone PIMGTOOL PHOTOGRAPH...        how well drawings have the tones of their photographs
        painting.py strokes PIMGTOOL PHOTOGRAPH...     how well one sees the strokes of paintings, and what they cost
+       painting.py scales PIMGTOOL PHOTOGRAPH...      whether drawings have the same lines at half and twice the resolution
+       painting.py noise PIMGTOOL PHOTOGRAPH...       how much paintings change when the noise of the photograph does
 
 tone     RMS and mean of the error of L*, drawing less photograph. Both are blurred with a Gaussian of 1/100 of their width, in L*; what
          is darker than L* = 5 in the photograph counts as 5, the darkest tone of --ink. Photographs are enlarged twice before.
@@ -11,9 +13,13 @@ strokes  legibility: standard deviation of L* between Gaussians of 1 and 10 pixe
          are seen between these), where the standard deviation of the photograph's L* in 21 x 21 pixels is below 3; spill: the error of
          colour 2 to 6 pixels beside strong edges over that more than 10 pixels away (1: paint does not cross edges); edge: share of
          strong edges that are still an edge; align: how well strokes follow the edges (0.64 at random, 1 at best).
+scales   the photograph is enlarged twice, and that halved and enlarged twice again; share of the length of lines that is within half a
+         pen of a line of the other drawing, the mean of both ways.
+noise    two frames with Gaussian noise of sigma 2 of 255: mean difference of colour of the paintings over that of the frames.
 
 Peers, each if it is installed: G'MIC, ImageMagick, GEGL. Debian: python3-numpy python3-scipy python3-openimageio gmic imagemagick gegl.
 """
+import json
 import os
 import shlex
 import shutil
@@ -25,6 +31,7 @@ import time
 import numpy as np
 import OpenImageIO as oiio
 from scipy import ndimage as ndi
+from scipy.spatial import cKDTree
 
 DRAWINGS = {  # name: command
     '--ink': 'pimgtool {} --ink -o {}',
@@ -154,11 +161,73 @@ def strokes(pimgtool, photographs, work):
             os.remove(target)
 
 
+def resize(photograph, factor, target):
+    picture = oiio.ImageBuf(photograph)
+    spec = picture.spec()
+    size = [int(round(factor * s / 4)) * 4 for s in (spec.width, spec.height)]
+    other = oiio.ImageBufAlgo.resize(picture, roi=oiio.ROI(0, size[0], 0, size[1], 0, 1, 0, spec.nchannels))
+    oiio.ImageBufAlgo.clamp(other, other, 0.0, 1.0)
+    other.write(target, 'uint8')
+
+
+def line_places(name, step):
+    """Places along the lines, as shares of the picture's width."""
+    with open(name) as file:
+        drawing = json.load(file)
+    places = []
+    for line in drawing['lines']:
+        points = (np.array(line['points'])[:, :2] + 0.5) / drawing['width']
+        length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
+        at = np.arange(0.5 * step, length[-1], step) if length[-1] > step else [0.0]
+        places.append(np.stack([np.interp(at, length, points[:, c]) for c in (0, 1)], axis=1))
+    return np.concatenate(places)
+
+
+def near(a, b, distance):
+    return float(np.isfinite(cKDTree(b).query(a, distance_upper_bound=distance)[0]).mean())
+
+
+def scales(pimgtool, photographs, work):
+    print('| photograph | half | twice |\n|---|---|---|')
+    for photograph in photographs:
+        lines, name = [], os.path.basename(photograph)
+        for factor in (1, 2, 4):
+            source, target = (os.path.join(work, '%d_%s.%s' % (factor, name, kind)) for kind in ('png', 'json'))
+            resize(photograph, factor, source)
+            subprocess.run([pimgtool, source, '--ink:strokes=' + target, '-o', os.path.join(work, 'drawing.png')], check=True)
+            spec = oiio.ImageBuf(source).spec()
+            sides = sorted([spec.width, spec.height])
+            pen = 0.4 * max(sides[1] / 210.0, sides[0] / 148.0) / spec.width
+            lines.append(line_places(target, 0.25 * pen))
+        shares = [50.0 * (near(lines[i], lines[1], 0.5 * pen) + near(lines[1], lines[i], 0.5 * pen)) for i in (0, 2)]
+        print('| %s | %.1f %% | %.1f %% |' % (name, *shares), flush=True)
+
+
+def noise(pimgtool, photographs, work):
+    print('| photograph | change at sigma 2 |\n|---|---|')
+    for photograph in photographs:
+        name = os.path.basename(photograph)  # in the names of files, since OpenImageIO keeps what it has read
+        chance, frames, paintings = np.random.default_rng(1), [], []
+        for frame in (0, 1):
+            source, target = (os.path.join(work, '%s%d_%s.png' % (kind, frame, name)) for kind in ('frame', 'painting'))
+            pixels = read(photograph)
+            pixels = np.clip(pixels + chance.normal(0.0, 2.0 / 255.0, pixels.shape), 0.0, 1.0).astype(np.float32)
+            picture = oiio.ImageBuf(oiio.ImageSpec(pixels.shape[1], pixels.shape[0], 3, 'uint8'))
+            picture.set_pixels(picture.roi, pixels)
+            picture.write(source)
+            subprocess.run([pimgtool, source, '--paint', '-o', target], check=True)
+            for kept, file in ((frames, source), (paintings, target)):
+                kept.append(lab(read(file)))
+        change = [np.sqrt(((a - b) ** 2).sum(axis=-1)).mean() for a, b in (paintings, frames)]
+        print('| %s | %.2f |' % (name, change[0] / change[1]), flush=True)
+
+
 def main():
-    if len(sys.argv) < 4 or sys.argv[1] not in ('tone', 'strokes'):
+    measures = {'tone': tone, 'strokes': strokes, 'scales': scales, 'noise': noise}
+    if len(sys.argv) < 4 or sys.argv[1] not in measures:
         raise SystemExit(__doc__)
     with tempfile.TemporaryDirectory() as work:
-        {'tone': tone, 'strokes': strokes}[sys.argv[1]](os.path.abspath(sys.argv[2]), sys.argv[3:], work)
+        measures[sys.argv[1]](os.path.abspath(sys.argv[2]), sys.argv[3:], work)
 
 
 if __name__ == '__main__':

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Sheets of paintings, drawings and mosaics of six photographs, beside those of other programs.
 
-usage: gallery_peers.py PIMGTOOL WORK FOLDER PHOTOGRAPH...
+usage: gallery_peers.py PIMGTOOL WORK FOLDER [paint] [ink] [mosaic] PHOTOGRAPH...
 
 Every sheet is FOLDER/NAME_KIND.jpg, made in WORK; the commands are printed. Those of programs that are not installed are left out.
+Drawings are made of photographs of a thousand pixels, smaller ones at twice their size, and FOLDER/NAME_drawing.png is one of them at full size. Without a kind: all.
 Debian: python3-numpy python3-openimageio gmic imagemagick gegl.
 """
 import os
@@ -12,6 +13,9 @@ import shlex
 import shutil
 import subprocess
 import sys
+
+import numpy as np
+import OpenImageIO as oiio
 
 import gallery_page as page
 
@@ -26,6 +30,8 @@ KINDS = {
     ),
     'ink': (
         'pimgtool {} --ink -o {}',
+        'pimgtool {} --ink:light=1 -o {}',
+        'pimgtool {} --ink:style=contour -o {}',
         'pimgtool {} --ink:style=stipple -o {}',
         'gmic {} fx_engrave 0.5,50,0,8,40,0,0,0,10,1,0,0,0,1,0 -o {}',
         'gmic {} fx_sketchbw 1,45,180,30,1.75,0.02,0.5,0.75,0.1,0.7,3,6,0,1,4 -o {}',
@@ -44,6 +50,7 @@ KINDS = {
     ),
 }
 COLUMNS, WIDTH = 3, 1500
+NIGHTS = ('rocket', 'GoldenGate')  # the drawing at full size has light=1
 
 
 def made(command, pimgtool, photograph, result):
@@ -60,20 +67,44 @@ def made(command, pimgtool, photograph, result):
     return page.read_rgb(result)
 
 
+def for_print(photograph, target):
+    """The name of the photograph, at twice its size if it is smaller than a thousand pixels."""
+    picture = oiio.ImageBuf(photograph)
+    spec = picture.spec()
+    if max(spec.width, spec.height) >= 1000:
+        return photograph
+    large = oiio.ImageBufAlgo.resize(picture, roi=oiio.ROI(0, 2 * spec.width, 0, 2 * spec.height, 0, 1, 0, spec.nchannels))
+    oiio.ImageBufAlgo.clamp(large, large, 0.0, 1.0)
+    large.write(target, 'uint8')
+    return target
+
+
+def write_drawing(pixels, name):
+    """Sixteen greys, which is enough for black lines."""
+    grey = np.round(pixels[..., 0] * 15) / 15
+    picture = oiio.ImageBuf(oiio.ImageSpec(grey.shape[1], grey.shape[0], 1, 'uint8'))
+    picture.set_pixels(picture.roi, grey[..., None].astype(np.float32))
+    picture.write(name)
+
+
 def main():
     if len(sys.argv) < 5:
         raise SystemExit(__doc__)
     pimgtool, work, folder = (os.path.abspath(a) for a in sys.argv[1:4])
     os.makedirs(work, exist_ok=True)
-    for photograph in (os.path.abspath(a) for a in sys.argv[4:]):
+    kinds = [a for a in sys.argv[4:] if a in KINDS] or list(KINDS)
+    for photograph in (os.path.abspath(a) for a in sys.argv[4:] if a not in KINDS):
         name = os.path.splitext(os.path.basename(photograph))[0]
-        for kind, commands in KINDS.items():
-            pictures = [page.read_rgb(photograph)]
-            for i, command in enumerate(commands):
-                pixels = made(command, pimgtool, photograph, os.path.join(work, '%s_%s_%d.png' % (name, kind, i)))
+        for kind in kinds:
+            source = for_print(photograph, os.path.join(work, name + '_print.png')) if kind == 'ink' else photograph
+            pictures = [page.read_rgb(source)]
+            for i, command in enumerate(KINDS[kind]):
+                pixels = made(command, pimgtool, source, os.path.join(work, '%s_%s_%d.png' % (name, kind, i)))
                 if pixels is not None:
                     pictures.append(pixels)
                     print(name, kind, len(pictures), command)
+            if kind == 'ink':
+                write_drawing(pictures[2 if name in NIGHTS else 1], os.path.join(folder, name + '_drawing.png'))
             page.write_jpeg(os.path.join(folder, '%s_%s.jpg' % (name, kind)), page.sheet(pictures, COLUMNS, WIDTH))
 
 

@@ -63,10 +63,10 @@ using Tint = std::array<float, 3>;
 
 /// Share of white from which changes of brightness are shares of it. Below, they are as large as there, since equal
 /// differences of encoded samples look about equal. More makes shadows livelier.
-constexpr float kMiddle = 0.5f;
+constexpr float kMiddle = 0.45f;
 /// The most by which the shares of random changes and of relief grow in the dark, so that black stays black. More relief
 /// makes strokes look as if they ran across the edges: measured as alignment, see docs/internals.md.
-constexpr float kMostChanged = 5.0f, kMostRaised = 1.8f;
+constexpr float kMostChanged = 3.0f, kMostRaised = 1.7f;
 
 /// Factor, at most `most`, on a change of brightness where the channels' mean is `value`. White is 0 if it is not known.
 float lifted(float value, float white, float most)

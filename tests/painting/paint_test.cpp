@@ -168,7 +168,7 @@ TEST(Paint, ChangesDarkColoursAsMuchAsMiddleOnesIfWhiteIsKnown)
         const auto [least, most] = std::minmax_element(canvas.begin(), canvas.end());
         return *most - *least;
     };
-    EXPECT_NEAR(spread(40, 250.0f), spread(125, 0.0f), 2.0f);
+    EXPECT_NEAR(spread(40, 250.0f), spread(112, 0.0f), 2.0f);
     EXPECT_FLOAT_EQ(spread(125, 250.0f), spread(125, 0.0f));
     EXPECT_FLOAT_EQ(spread(200, 250.0f), spread(200, 0.0f));
     EXPECT_LT(spread(2, 250.0f), 2.5f) << "black stays black";

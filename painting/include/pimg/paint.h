@@ -37,7 +37,7 @@ struct StrokePaintOptions {
     const ChannelsView* ground = nullptr;
     float crossing = 14.0f;  ///< smallest difference in `edges` that is an edge
     /// The sample of white if samples are encoded as for a display. Random changes are then as large in dark colours as
-    /// in a middle grey, up to five times their share. 0: they are shares of the brightness everywhere.
+    /// in a middle grey, up to three times their share. 0: they are shares of the brightness everywhere.
     float white = 0.0f;
     ParallelFor parallel;  ///< the result does not depend on it
 };
@@ -51,7 +51,7 @@ PIMG_EXPORT void paint_strokes(const Strokes& strokes, const std::vector<std::ve
 
 /// Lights the relief of the paint from the upper left. Every channel is multiplied by a number between about
 /// 1 - strength / 2 and 1 + strength / 2, for a strength of 0..1. Where paint is equally thick, nothing changes. `white` is
-/// as in StrokePaintOptions: if it is known, relief is up to 1.8 times as strong in the dark.
+/// as in StrokePaintOptions: if it is known, relief is up to 1.7 times as strong in the dark.
 PIMG_EXPORT void light_relief(Canvas& canvas, float strength, const ParallelFor& parallel = {}, float white = 0.0f);
 
 }  // namespace PIMG_ABI

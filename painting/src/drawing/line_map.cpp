@@ -14,6 +14,7 @@
 #include <pimg/detail/parallel.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -258,4 +259,5 @@ LineMap thin_lines_of(const Study& study, bool light, const ParallelFor& paralle
     return map;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

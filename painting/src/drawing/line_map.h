@@ -9,6 +9,7 @@
 #include "drawing/study.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// A direction, and how much there is to draw, at every cell. Lines run along the ridges of `strength`.
 struct LineMap {
@@ -31,4 +32,5 @@ LineMap edges_of(const Study& study, const ParallelFor& parallel);
 /// with `light`, what is lighter.
 LineMap thin_lines_of(const Study& study, bool light, const ParallelFor& parallel);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -18,6 +18,7 @@
 #include "drawing/raster_ops.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -174,4 +175,5 @@ Study make_study(std::vector<Raster> channels, const ParallelFor& parallel)
     return study;
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

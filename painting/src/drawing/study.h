@@ -8,6 +8,7 @@
 #include <pimg/types.h>
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// A picture on the drawing's grid. Channels are in units of one step of an 8-bit picture.
 struct Study {
@@ -25,4 +26,5 @@ struct Study {
 /// lost.
 Study make_study(std::vector<Raster> channels, const ParallelFor& parallel);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg
