@@ -34,6 +34,16 @@ bool filters(const FilterStack& stack)
     return std::any_of(stack.items.begin(), stack.items.end(), [](const StackItem& item) { return item.on; });
 }
 
+Rendering source_of(const DocumentState& document, const Rung& rung)
+{
+    Rendering source;
+    source.pixels = rung.pixels;
+    source.factor = rung.factor;
+    source.linear_light = document.linear_light;
+    source.layer = document.build.layer;
+    return source;
+}
+
 /// The side, in pixels of a rung, of the square that a texel is the mean of.
 int reduction(double scale, int factor)
 {
@@ -124,6 +134,24 @@ void Studio::post(Worker& worker, Renderer& renderer, bool quick, bool at_once)
     worker.post(job, at_once);
 }
 
+/// The picture as it is, if nothing of the file has been shown: the first filter may take a while.
+void Studio::show_source_first(const Request& request)
+{
+    const std::shared_ptr<const Shown> before = this->shown();
+    if (before && before->document == request.document.version)
+        return;
+    const Rung& rung = request.document.rungs[0];
+    auto shown = std::make_shared<Shown>();
+    shown->source = shown->result = source_of(request.document, rung);
+    const int reduce = reduction(std::max(1.0, request.wanted.scale), rung.factor);
+    shown->frame = std::make_shared<Frame>(make_frame(shown->result, request.region, reduce));
+    shown->document = request.document.version;
+    shown->width = request.document.width;
+    shown->height = request.document.height;
+    shown->serial = request.serial;
+    publish(shown);
+}
+
 void Studio::make(const Request& request, Renderer& renderer, bool quick, const std::atomic<bool>& stop)
 {
     const auto begun = std::chrono::steady_clock::now();
@@ -135,6 +163,11 @@ void Studio::make(const Request& request, Renderer& renderer, bool quick, const 
         rung = &request.document.rungs[0];
         stack.items.clear();
     }
+    if (filtered && request.wanted.playing && rung == &request.document.rungs[0] && !rung->image
+        && !request.document.finished())
+        return;
+    if (!stack.items.empty() && !request.wanted.playing)
+        show_source_first(request);
     auto shown = std::make_shared<Shown>();
     shown->result = renderer.render(request.document, *rung, stack, stop);
     if (!shown->result.pixels && stop)
@@ -153,12 +186,12 @@ void Studio::make(const Request& request, Renderer& renderer, bool quick, const 
         m_seconds_per_pixel = shown->result.seconds / double(rung->pixels->spec().image_pixels());
     const int reduce = reduction(scale, rung->factor);
     shown->frame = std::make_shared<Frame>(make_frame(shown->result, request.region, reduce));
-    shown->source.pixels = rung->pixels;
-    shown->source.factor = rung->factor;
-    shown->source.linear_light = request.document.linear_light;
-    shown->source.layer = request.document.build.layer;
+    shown->source = source_of(request.document, *rung);
     shown->final = !quick;
+    shown->filtered = !filtered || !stack.items.empty();
     shown->document = request.document.version;
+    shown->width = request.document.width;
+    shown->height = request.document.height;
     shown->serial = request.serial;
     add_source(request, *shown);
     if (rung->image)
@@ -241,6 +274,13 @@ std::string Studio::error() const
 {
     const std::lock_guard<std::mutex> lock(m_mutex);
     return m_error;
+}
+
+bool Studio::has_current() const
+{
+    const int version = m_document.state().version;
+    const std::shared_ptr<const Shown> newest = shown();
+    return newest && newest->document == version && newest->filtered;
 }
 
 bool Studio::settled() const

@@ -26,6 +26,7 @@ struct Wanted {
     pimg::Index mesh = 0;   ///< vertices of the mesh that is drawn; 0: none
     bool pieces = false;    ///< dual pieces are looked up, of that level or of 2000 vertices
     bool scopes = false;    ///< histogram and waveform are shown
+    bool playing = false;   ///< the frame before stays until the filters are done with the next
 };
 
 /// A picture that has been made.
@@ -37,10 +38,12 @@ struct Shown {
     bool has_scopes = false;
     std::shared_ptr<const MeshLines> mesh;
     std::shared_ptr<const PieceMap> pieces;
-    bool final = false;    ///< of the finest rung there is
-    int document = 0;      ///< version of the document
-    int serial = 0;        ///< of the request
-    double seconds = 0.0;  ///< from the beginning of the work to this
+    bool filtered = false;      ///< filters have had their effect, if there are any
+    bool final = false;         ///< of the finest rung there is
+    int document = 0;           ///< version of the document
+    int width = 0, height = 0;  ///< of the picture in the file
+    int serial = 0;             ///< of the request
+    double seconds = 0.0;       ///< from the beginning of the work to this
 };
 
 /// What became of saving.
@@ -67,6 +70,9 @@ public:
     /// One line that says why the newest request gave no picture; empty: it did.
     std::string error() const;
 
+    /// Whether the newest picture is of the present file and all filters, be it a quick one.
+    bool has_current() const;
+
     /// Whether everything that was wanted is shown, at full resolution, and no work is left.
     bool settled() const;
 
@@ -88,6 +94,7 @@ private:
     };
 
     void post(Worker& worker, Renderer& renderer, bool quick, bool at_once);
+    void show_source_first(const Request& request);
     void make(const Request& request, Renderer& renderer, bool quick, const std::atomic<bool>& stop);
     void count_memory(const Request& request, const Shown& shown, bool quick);
     void add_source(const Request& request, Shown& shown) const;

@@ -28,7 +28,7 @@ std::string label_of(const OptionInfo& option)
 
 void tooltip(const OptionInfo& option)
 {
-    if (!ImGui::IsItemHovered())
+    if (!rests_on_item())
         return;
     std::string text = option.help;
     if (!option.range.empty())
@@ -54,7 +54,8 @@ bool slider(const OptionInfo& option, const std::string& value, std::string& cha
     const bool whole = option.type == "int";
     double number = value.empty() ? std::max(range.low, 0.0) : OIIO::Strutil::stod(value);
     // Four digits, so that a logarithmic slider can show its small values; whole numbers without a fraction.
-    const char* shown = value.empty() ? "not set" : whole ? "%.0f" : "%.4g";
+    const bool is_found = number == 0.0 && option.help.find("0: found") != option.help.npos;
+    const char* shown = value.empty() ? "not set" : is_found ? "found" : whole ? "%.0f" : "%.4g";
     const ImGuiSliderFlags flags =
         (range.logarithmic ? ImGuiSliderFlags_Logarithmic : 0) | ImGuiSliderFlags_NoRoundToFormat;
     const std::string label = label_of(option);
@@ -92,6 +93,20 @@ bool text_field(const OptionInfo& option, const std::string& value, std::string&
 }
 
 }  // namespace
+
+bool rests_on_item()
+{
+    constexpr double kWhile = 0.5;  // seconds
+    static ImVec2 place;
+    static double since = 0.0;
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f || ImGui::IsAnyMouseDown() || io.MouseWheel != 0.0f) {
+        place = io.MousePos;
+        since = ImGui::GetTime();
+    }
+    return ImGui::IsItemHovered() && place.x == io.MousePos.x && place.y == io.MousePos.y
+        && ImGui::GetTime() - since > kWhile;
+}
 
 bool option_widget(const OptionInfo& option, const std::string& value, std::string& changed)
 {

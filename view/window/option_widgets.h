@@ -10,6 +10,10 @@
 
 namespace pimgview {
 
+/// Whether the pointer has been on the last item for a while, without a button held: help that comes at once hides what is
+/// beside it.
+bool rests_on_item();
+
 /// Draws the widget of an option that has `value`, which is empty if it is not set. True if the user changed it: `changed`
 /// is then the new value. A double click, or the middle button, asks for the default.
 bool option_widget(const pimg::OptionInfo& option, const std::string& value, std::string& changed);

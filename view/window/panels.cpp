@@ -2,6 +2,7 @@
 #include "panels.h"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -88,7 +89,7 @@ void Panels::draw(Workbench& bench, const ViewInfo& info, float scale)
         ImGui::SetNextWindowSize({ float(kWidth) * scale, display.y - float(kStatusHeight) * scale });
         ImGui::Begin("Panels", nullptr,
                      ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove);
-        ImGui::PushItemWidth(float(kWidth) * 0.5f * scale);
+        ImGui::PushItemWidth(float(kWidth) * 0.44f * scale);
         scopes(bench);
         files(bench);
         filters(bench);
@@ -193,15 +194,7 @@ void Panels::filters(Workbench& bench)
         }
     }
     move_filter(bench.stack.items);
-    if (ImGui::BeginCombo("##add", "Add a filter ...")) {
-        for (const pimg::Filter& row : pimg::filter_table()) {
-            if (ImGui::Selectable(row.name))
-                bench.stack.items.push_back({ &row, {}, true });
-            if (ImGui::IsItemHovered())
-                ImGui::SetTooltip("%s", row.summary);
-        }
-        ImGui::EndCombo();
-    }
+    add_filter(bench.stack.items);
     if (ImGui::TreeNode("Building the progressive image")) {
         const OptionInfo* which = nullptr;
         std::string value;
@@ -210,6 +203,19 @@ void Panels::filters(Workbench& bench)
             set_value(bench.stack.build, *which, value);
         ImGui::TreePop();
     }
+}
+
+/// All filters with what they do, so that nobody needs to know their names.
+void Panels::add_filter(std::vector<StackItem>& items)
+{
+    constexpr float kWidest = 48.0f;  // in letters' heights
+    ImGui::SetNextWindowSizeConstraints({ kWidest * ImGui::GetFontSize(), 0 }, { FLT_MAX, FLT_MAX });
+    if (!ImGui::BeginCombo("##add", "Add a filter ...", ImGuiComboFlags_HeightLargest))
+        return;
+    for (const pimg::Filter& row : pimg::filter_table())
+        if (ImGui::Selectable(format("{:<17}{}", row.name, row.summary).c_str()))
+            items.push_back({ &row, {}, true });
+    ImGui::EndCombo();
 }
 
 void Panels::move_filter(std::vector<StackItem>& items)
@@ -250,11 +256,11 @@ bool Panels::filter(Workbench& bench, std::size_t index)
     ImGui::Checkbox("##on", &item.on);
     ImGui::SameLine();
     const bool removed = ImGui::SmallButton("x");
-    if (ImGui::IsItemHovered())
+    if (rests_on_item())
         ImGui::SetTooltip("takes the filter out");
     ImGui::SameLine();
     const bool open = ImGui::TreeNodeEx(item.filter->name, ImGuiTreeNodeFlags_DefaultOpen | ImGuiTreeNodeFlags_Framed);
-    if (ImGui::IsItemHovered() && !ImGui::IsItemActive())
+    if (rests_on_item() && !ImGui::IsItemActive())
         ImGui::SetTooltip("%s\ndrag it onto another filter, whose place it takes", item.filter->summary);
     drag_filter(bench, index);
     if (!open)
@@ -337,35 +343,35 @@ void Panels::look(Workbench& bench)
 /// Both histograms in one plot, the source filled and the result as a line, over a scale in stops.
 void Panels::histogram(const Shown& shown, float width)
 {
-    constexpr float kHeight = 80.0f;
+    const float height = 6.0f * ImGui::GetFontSize();
     constexpr int kTick = 4;  // stops
     const auto& result = shown.histogram.bins;
     const auto& source = shown.source_histogram.bins;
     const float most = std::max(
         { 1e-6f, *std::max_element(result.begin(), result.end()), *std::max_element(source.begin(), source.end()) });
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const float bottom = corner.y + kHeight, cell = width / float(Histogram::kBins);
+    const float bottom = corner.y + height, cell = width / float(Histogram::kBins);
     const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text), faint = ImGui::GetColorU32(ImGuiCol_TextDisabled);
     ImDrawList* draw = ImGui::GetWindowDrawList();
     draw->AddRectFilled(corner, { corner.x + width, bottom }, ImGui::GetColorU32(ImGuiCol_FrameBg));
     for (int stop = Histogram::kLeast; stop <= Histogram::kMost; stop += kTick) {
         const float x = corner.x + float((stop - Histogram::kLeast) * Histogram::kBinsPerStop) * cell;
         draw->AddLine({ x, corner.y }, { x, bottom }, stop == 0 ? ink : ImGui::GetColorU32(ImGuiCol_Border));
-        draw->AddText({ std::min(x + 2, corner.x + width - 24), bottom }, faint,
+        draw->AddText({ std::min(x + 2, corner.x + width - 2.0f * ImGui::GetFontSize()), bottom }, faint,
                       (stop == 0 ? std::string("0") : format("{:+d}", stop)).c_str());
     }
     std::vector<ImVec2> line;
     for (int i = 0; i < Histogram::kBins; ++i) {
-        const auto height = [&](float share) {
-            return bottom - kHeight * share / most;
+        const auto top = [&](float share) {
+            return bottom - height * share / most;
         };
         const float x = corner.x + float(i) * cell;
-        draw->AddRectFilled({ x, height(source[std::size_t(i)]) }, { x + cell, bottom }, faint);
-        line.push_back({ x, height(result[std::size_t(i)]) });
-        line.push_back({ x + cell, height(result[std::size_t(i)]) });
+        draw->AddRectFilled({ x, top(source[std::size_t(i)]) }, { x + cell, bottom }, faint);
+        line.push_back({ x, top(result[std::size_t(i)]) });
+        line.push_back({ x + cell, top(result[std::size_t(i)]) });
     }
     draw->AddPolyline(line.data(), int(line.size()), ImGui::GetColorU32(ImGuiCol_PlotHistogram), 0, 1.5f);
-    ImGui::Dummy({ width, kHeight + ImGui::GetTextLineHeight() });
+    ImGui::Dummy({ width, height + ImGui::GetTextLineHeight() });
     ImGui::TextDisabled("stops around 1: source filled, result as a line");
 }
 
@@ -381,7 +387,7 @@ void Panels::scopes(const Workbench& bench)
         return;
     const Waveform& waveform = shown->waveform;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const float cell = width / float(waveform.columns), row = 2.0f;
+    const float cell = width / float(waveform.columns), row = std::round(ImGui::GetFontSize() / 6.0f);
     ImDrawList* draw = ImGui::GetWindowDrawList();
     draw->AddRectFilled(corner, { corner.x + width, corner.y + row * Waveform::kRows }, IM_COL32(0, 0, 0, 255));
     for (int y = 0; y < Waveform::kRows; ++y)
@@ -417,14 +423,17 @@ void Panels::presets(Workbench& bench)
 
 void Panels::save(Workbench& bench)
 {
-    if (bench.saving)
+    const bool asked = std::exchange(bench.saving, false);
+    if (asked)
         ImGui::SetNextItemOpen(true);
-    bench.saving = false;
     if (!section("Save", false))
         return;
-    ImGui::InputTextWithHint("##file", "out.png, out.exr, out.pimg, out.svg ...", &bench.save_name);
+    if (asked)
+        ImGui::SetKeyboardFocusHere();
+    const bool entered = ImGui::InputTextWithHint("##file", "out.png, out.exr, out.pimg, out.svg ...", &bench.save_name,
+                                                  ImGuiInputTextFlags_EnterReturnsTrue);
     ImGui::SameLine();
-    if (ImGui::Button("Save") && !bench.save_name.empty() && !bench.studio.saving().busy)
+    if ((ImGui::Button("Save") || entered) && !bench.save_name.empty() && !bench.studio.saving().busy)
         bench.studio.save(bench.stack, bench.save_name);
     ImGui::TextWrapped("The extension chooses the format: of a picture, .pimg, or .svg and .json for strokes.");
 }
@@ -479,7 +488,7 @@ void Panels::sheet(Workbench& bench)
         if (*key.name == '\0')
             continue;
         ImGui::TextUnformatted(key.name);
-        ImGui::SameLine(120);
+        ImGui::SameLine(9.0f * ImGui::GetFontSize());
         ImGui::TextUnformatted(key.help);
     }
     ImGui::End();

@@ -34,6 +34,7 @@ private:
     void filters(Workbench& bench);
     bool filter(Workbench& bench, std::size_t index);
     void drag_filter(Workbench& bench, std::size_t index);
+    static void add_filter(std::vector<StackItem>& items);
     void move_filter(std::vector<StackItem>& items);
     void level_slider(Workbench& bench);
     void look(Workbench& bench);

@@ -94,10 +94,17 @@ void PictureView::act(Workbench& bench, Action action) const
         m_area.zoom_about(bench.look, 1.0 / kStep, x, y);
 }
 
+/// Whether a picture is that of the file; or of the one before, while this one is being read.
+bool PictureView::may_draw(const DocumentState& document, const Shown& shown) const
+{
+    const bool same_size = shown.width == m_area.picture_width && shown.height == m_area.picture_height;
+    return shown.document == document.version || (same_size && document.error.empty());
+}
+
 void PictureView::draw(Workbench& bench, int buffer_width, int buffer_height)
 {
     const std::shared_ptr<const Shown> shown = bench.studio.shown();
-    if (!shown || shown->document != bench.studio.document().state().version)
+    if (!shown || !may_draw(bench.studio.document().state(), *shown))
         return;
     if (shown != m_drawn) {
         m_texture.upload(*shown->frame, shown->source_frame.get());

@@ -50,6 +50,7 @@ private:
         }
     };
 
+    bool may_draw(const DocumentState& document, const Shown& shown) const;
     bool paint(Workbench& bench, const Shown& shown, int buffer_width, int buffer_height);
     void look_up_pixel(const Workbench& bench, double at_x, double at_y);
 

@@ -184,7 +184,11 @@ Viewport Window::area() const
     area.width = std::max(1, width - area.x);
     area.height = std::max(1, panels ? height - int(Panels::kStatusHeight * m_scale) : height);
     const DocumentState document = m_bench->studio.document().state();
-    if (document.has_picture()) {
+    const std::shared_ptr<const Shown> shown = m_bench->studio.shown();
+    if (!document.has_picture() && shown) {
+        area.picture_width = shown->width;
+        area.picture_height = shown->height;
+    } else if (document.has_picture()) {
         area.picture_width = document.width;
         area.picture_height = document.height;
     }

@@ -94,11 +94,12 @@ void Workbench::update(const Region& visible, double scale, bool dragging)
     wanted.source = look.show != "result";
     wanted.mesh = pimg::Index(look.mesh);
     wanted.pieces = look.piece;
+    wanted.playing = playing;
     wanted.scopes = look.histogram || look.waveform;
     studio.want(wanted);
     const std::shared_ptr<const Shown> shown = studio.shown();
-    // A frame is left when a picture of it has been seen with its filters.
-    if (playing && shown != m_last_played && studio.settled()) {
+    // A frame is left when a picture of it has been seen with its filters, or nothing more can be seen of it.
+    if (playing && ((shown != m_last_played && studio.has_current()) || studio.settled())) {
         m_last_played = shown;
         go_to(index + 1 < int(files.size()) ? index + 1 : 0);
     }

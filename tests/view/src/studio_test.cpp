@@ -17,6 +17,7 @@
 #include "display/viewport.h"
 #include "render/glimpse.h"
 #include "state/command_line.h"
+#include "state/file_list.h"
 #include "state/history.h"
 
 namespace {
@@ -131,6 +132,22 @@ TEST(FilterStack, TheLastOfTwoAlternativesHolds)
         if (option.key == "faces")
             set_value(item, option, "300");
     EXPECT_EQ(item.texts, (pimg::OptionTexts { { "faces", "300" } }));
+}
+
+TEST(FileList, FindsFramesAndFolders)
+{
+    std::string error;
+    OIIO::Filesystem::remove_all("frames", error);
+    ASSERT_TRUE(OIIO::Filesystem::create_directory("frames", error)) << error;
+    const OIIO::ImageBuf picture(make_picture(16, 12));
+    std::vector<std::string> names;
+    for (const char* frame : { "0008", "0009", "0010" }) {
+        names.push_back(std::string("frames/shot.") + frame + ".exr");
+        ASSERT_TRUE(picture.write(names.back()));
+    }
+    for (const char* pattern : { "frames/shot.#.exr", "frames/shot.####.exr", "frames/shot.%04d.exr", "frames" })
+        EXPECT_EQ(expand_files({ pattern }), names) << pattern;
+    EXPECT_EQ(list_folder("."), list_folder("./"));
 }
 
 TEST(History, GoesBackAndForth)

@@ -33,8 +33,12 @@ bool is_picture(const std::string& name)
     return extensions().count(OIIO::Strutil::lower(Filesystem::extension(name, false))) > 0;
 }
 
-std::vector<std::string> frames_of(const std::string& pattern)
+/// The frames that a pattern stands for. A single # is four digits, as everywhere in OpenImageIO; of several each is one
+/// digit, as in most other programs.
+std::vector<std::string> frames_of(std::string pattern)
 {
+    if (pattern.find("##") != pattern.npos)
+        std::replace(pattern.begin(), pattern.end(), '#', '@');
     std::string normal, frames;
     std::vector<std::string> names;
     std::vector<int> numbers;
