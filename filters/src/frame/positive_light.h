@@ -32,8 +32,9 @@ inline float shaded(float value, float expected)
 /// Raises the values of those vertices of level `level` that have less light than their pieces of the picture: by
 /// shaded() with the harmonic mean of the piece's samples as `expected`. In that mean the darkest samples count most,
 /// so that a lamp in the piece does not decide. Where a sample is not above 0, the value is at least min(0, the piece's
-/// least sample). At the finest level nothing changes.
-void shade_vertices(const Hierarchy& hierarchy, const Bands& bands, Level level, float* values);
+/// least sample). At the finest level nothing changes. `values` has those of every colour channel, times 2^-exponent.
+void shade_vertices(const ProgressiveImage::Data& data, int exponent, Level level, const ParallelFor& parallel,
+                    Channels& values);
 
 /// Raises samples of results, one raster per colour channel, to min(0, the least of the source's 3 x 3 samples around).
 /// Nothing is done for pictures that are not scene-linear.

@@ -12,6 +12,7 @@
 #include "base/curve_text.h"
 #include "frame/image_filter.h"
 #include "frame/positive_light.h"
+#include "ops/channel_sweep.h"
 #include "source/samples/above_noise.h"
 
 namespace pimg {
@@ -80,51 +81,6 @@ Curve step_curve(Level from, Level to, float gain, Level levels)
     return curve;
 }
 
-/// A sweep of C channels whose values lie side by side, of details only: the base mesh is 0.
-template<int C>
-void sweep_details(const PlannedChannels& channels, const std::vector<float>& more, const ParallelFor& parallel,
-                   float* values)
-{
-    const SweepPlan& plan = *channels.plan;
-    const Detail* details[C];
-    std::copy_n(channels.details.begin(), C, details);
-    plan.for_splits(parallel, [&](Level first, Level last) {
-        plan.visit_splits(first, last, [&](Level i, const PlannedSplit& k) {
-            constexpr Level kAhead = 24, kDetailsAhead = 128;
-            if (i + kAhead < last)
-                __builtin_prefetch(&more[plan.level_of(i + kAhead)]);
-            for (const Detail* of_channel : details)
-                __builtin_prefetch(of_channel + i + kDetailsAhead);
-            const Lanes<C> m = in_all_lanes<C>(more[plan.level_of(i)]), s = lanes_at<C>(values, k.s);
-            const auto predicted = [&](Index a, Index b, float wa, float wb) {
-                return interpolate_lanes<C>(s, lanes_at<C>(values, a), lanes_at<C>(values, b), wa, wb);
-            };
-            const Lanes<C> t = predicted(k.at, k.bt, k.wat, k.wbt), u = predicted(k.au, k.bu, k.wau, k.wbu);
-            set_lanes<C>(t + m * lanes_of<C>([&](int c) { return details[c][i].t; }), k.s, values);
-            set_lanes<C>(u + m * lanes_of<C>([&](int c) { return details[c][i].u; }), k.u, values);
-        });
-    });
-}
-
-/// What the amplified details of C channels add to them, as rasters of mesh pixels.
-template<int C>
-void added_details(ProgressiveImage::Data& data, const PlannedChannels& channels, const std::vector<float>& more,
-                   const ParallelFor& parallel, Channels& results)
-{
-    const SweepPlan& plan = *channels.plan;
-    const Hierarchy& hierarchy = data.hierarchy;
-    Scratch values(data, plan.places() * kLanes<C>);
-    for (Index v = 0; v < hierarchy.base_vertices(); ++v)
-        set_lanes<C>(in_all_lanes<C>(0.0f), plan.base_place(v), (*values).data());
-    sweep_details<C>(channels, more, parallel, (*values).data());
-    float* samples[C];
-    for (std::size_t c = 0; c < C; ++c) {
-        results[c].resize(hierarchy.mesh_pixels());
-        samples[c] = results[c].data();
-    }
-    plan.scatter_channels<C>(hierarchy, (*values).data(), samples, parallel);
-}
-
 /// Adds the light of the source to what is added to one channel, if that is not the result already. What is left is at
 /// least a quarter of the light of the source at every pixel of a scene, however much its details are amplified.
 void add_source(const ProgressiveImage::Data& data, int channel, int exponent, const ParallelFor& parallel,
@@ -147,13 +103,7 @@ void add_source(const ProgressiveImage::Data& data, int channel, int exponent, c
 void enhance_by(ProgressiveImage::Data& data, const PlannedChannels& planned, const ChannelBands& channels,
                 const std::vector<float>& more, const ParallelFor& parallel, Channels& results)
 {
-    results.resize(channels.bands.size());
-    if (results.size() == 3)
-        added_details<3>(data, planned, more, parallel, results);
-    else if (results.size() == 2)
-        added_details<2>(data, planned, more, parallel, results);
-    else
-        added_details<1>(data, planned, more, parallel, results);
+    sweep_details(data, planned, more, parallel, results);
     for (std::size_t c = 0; c < results.size(); ++c) {
         const std::vector<float>& residual = channels.bands[c].residual;
         if (more.back() != 0.0f && !residual.empty())

@@ -9,6 +9,7 @@
 
 #include "frame/image_filter.h"
 #include "frame/positive_light.h"
+#include "ops/channel_sweep.h"
 
 namespace pimg {
 inline namespace PIMG_ABI {
@@ -23,18 +24,6 @@ Level splits_kept(const Hierarchy& hierarchy, const FeatureLowpassOptions& optio
     return Level(std::lround(double(options.fraction) * hierarchy.levels()));
 }
 
-/// One channel with the details of the first `kept` splits only.
-std::vector<float> lowpass(const ProgressiveImage::Data& data, const Bands& bands, Level kept, int exponent)
-{
-    const Hierarchy& hierarchy = data.hierarchy;
-    std::vector<float> values(hierarchy.vertices());
-    sweep(hierarchy, bands, values.data(), kept, [](Level, Detail d) { return d; });
-    if (is_scene_linear(data) && kept < hierarchy.levels())
-        shade_vertices(hierarchy, bands, kept, values.data());
-    sweep_splits(hierarchy, kept, hierarchy.levels(), values.data(), [](Level) { return Detail { 0.0f, 0.0f }; });
-    return to_picture(hierarchy, values.data(), exponent, kept == hierarchy.levels() ? &bands.residual : nullptr);
-}
-
 bool by_position(ProgressiveImage::Data& data, const FeatureLowpassOptions& options, const ParallelFor& parallel,
                  Channels& results, std::string& error)
 {
@@ -45,10 +34,18 @@ bool by_position(ProgressiveImage::Data& data, const FeatureLowpassOptions& opti
     const ChannelBands* channels = data.channel_bands(parallel, error);
     if (channels == nullptr)
         return false;
+    const auto planned = data.planned_channels(parallel, error);
+    if (planned == nullptr)
+        return false;
     const Level kept = splits_kept(data.hierarchy, options);
-    results.resize(channels->bands.size());
-    run(parallel, results.size(),
-        [&](std::size_t i) { results[i] = lowpass(data, channels->bands[i], kept, channels->exponent); });
+    predict_finest(data, *planned, kept, values_of_level(data, *channels, kept, parallel), parallel, results);
+    const bool whole = kept == data.hierarchy.levels();
+    run(parallel, results.size(), [&](std::size_t c) {
+        if (whole)
+            add_residual(channels->bands[c], results[c].data(), [](Index, float residual) { return residual; });
+        crop_to_picture(data.hierarchy, results[c]);
+        scale_by_power(channels->exponent, results[c]);
+    });
     return true;
 }
 

@@ -10,6 +10,7 @@
 
 #include "frame/image_filter.h"
 #include "frame/positive_light.h"
+#include "ops/channel_sweep.h"
 
 namespace pimg {
 inline namespace PIMG_ABI {
@@ -27,23 +28,18 @@ bool make_level(ProgressiveImage::Data& data, const LevelOptions& options, bool 
     const ChannelBands* channels = data.channel_bands(parallel, error);
     if (channels == nullptr)
         return false;
-    std::vector<std::vector<float>> values;
+    const Channels values = values_of_level(data, *channels, picture.level, parallel);
     std::vector<const float*> inputs;
     std::vector<float*> outputs;
-    picture.channels.assign(channels->bands.size(), std::vector<float>(hierarchy.mesh_pixels()));
-    for (std::size_t i = 0; i < channels->bands.size(); ++i) {
-        values.push_back(values_at(hierarchy, channels->bands[i], picture.level));
-        if (is_scene_linear(data))
-            shade_vertices(hierarchy, channels->bands[i], picture.level, values.back().data());
-        inputs.push_back(values.back().data());
+    picture.channels.assign(values.size(), std::vector<float>(hierarchy.mesh_pixels()));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        inputs.push_back(values[i].data());
         outputs.push_back(picture.channels[i].data());
     }
     rasterize(picture.mesh, inputs, outputs, parallel);
     for (std::vector<float>& channel : picture.channels) {
         crop_to_picture(hierarchy, channel);
-        if (channels->exponent != 0)
-            for (float& sample : channel)
-                sample = std::ldexp(sample, channels->exponent);
+        scale_by_power(channels->exponent, channel);
     }
     bound_below(data, parallel, picture.channels);
     return true;

@@ -18,10 +18,15 @@ std::vector<float> to_picture(const Hierarchy& hierarchy, const float* values, i
         for (std::size_t i = 0; i < residual->size(); ++i)
             samples[i] += factor * (*residual)[i];
     crop_to_picture(hierarchy, samples);
+    scale_by_power(exponent, samples);
+    return samples;
+}
+
+void scale_by_power(int exponent, std::vector<float>& samples)
+{
     if (exponent != 0)
         for (float& sample : samples)
             sample = std::ldexp(sample, exponent);
-    return samples;
 }
 
 void crop_to_picture(const Hierarchy& hierarchy, std::vector<float>& samples)

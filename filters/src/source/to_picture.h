@@ -17,5 +17,8 @@ std::vector<float> to_picture(const Hierarchy& hierarchy, const float* values, i
 /// From a raster of the mesh's size to one of the picture's: the same, but for pictures one pixel wide or high.
 void crop_to_picture(const Hierarchy& hierarchy, std::vector<float>& samples);
 
+/// Multiplies samples by 2^exponent.
+void scale_by_power(int exponent, std::vector<float>& samples);
+
 }  // namespace PIMG_ABI
 }  // namespace pimg
