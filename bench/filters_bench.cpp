@@ -31,10 +31,8 @@ void build_image(benchmark::State& state, const char* mesh, bool preview)
             return;
     state.SetItemsProcessed(state.iterations() * std::int64_t(size) * size);
 }
-BENCHMARK_CAPTURE(build_image, auto, "auto", false)
-    ->ArgsProduct({ { 512, 1024 }, { 1, 2 } })
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(build_image, auto, "auto", false) -> ArgsProduct({ { 512, 1024 }, { 1, 2 } }) -> UseRealTime()
+    -> Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(build_image, full, "full", false)
     ->ArgsProduct({ { 512, 1024 }, { 1, 2 } })
     ->UseRealTime()
@@ -79,10 +77,10 @@ void retune(benchmark::State& state, const char* name, const char* one, const ch
     state.SetItemsProcessed(state.iterations() * std::int64_t(size) * size);
 }
 
-#define PIMG_RETUNE(title, ...)                     \
-    BENCHMARK_CAPTURE(retune, title, __VA_ARGS__)   \
-        ->ArgsProduct({ { 1024 }, { 1, 2 } })       \
-        ->UseRealTime()                             \
+#define PIMG_RETUNE(title, ...)                                                                                        \
+    BENCHMARK_CAPTURE(retune, title, __VA_ARGS__)                                                                      \
+        ->ArgsProduct({ { 1024 }, { 1, 2 } })                                                                          \
+        ->UseRealTime()                                                                                                \
         ->Unit(benchmark::kMillisecond)
 PIMG_RETUNE(hdr_compress, "hdr_compress", "beta=1", "beta=2")->Args({ 512, 2 })->Args({ 2880, 2 });
 PIMG_RETUNE(lowpass_strength, "feature_lowpass", "strength=0.3", "strength=0.4");

@@ -15,6 +15,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
+import time
 
 RUNS = 5
 
@@ -24,10 +25,16 @@ RATIOS = [
     ("Building over meshoptimizer, 512²", "build/512", "meshopt_free/512", "≥ 1.3"),
     ("Building over meshoptimizer, 1024²", "build/1024", "meshopt_free/1024", "≥ 1.3"),
     ("Building over meshoptimizer with its border locked, 512²", "build/512", "meshopt_locked/512", "≥ 1.3"),
-    ("Building a picture, two threads over one, 1024²", "build_image/1024/2", "build_image/1024/1", "≥ 1.8"),
-    ("Retuning hdr_compress over building, two threads, 1024²", "retune_hdr_compress/1024/2", "build_image/1024/2", "≥ 25"),
-    ("The same, one thread", "retune_hdr_compress/1024/1", "build_image/1024/1", "≥ 25"),
-    ("Retuning, two threads, over a plain copy of its bytes, 1024²", "retune_hdr_compress/1024/2", "copy/1024", "≥ 0.4"),
+    ("Building a picture, two threads over one, 1024²", "build_image/auto/1024/2", "build_image/auto/1024/1", "≥ 1.8"),
+    ("Building by mesh=auto over mesh=full, two threads, 1024²", "build_image/auto/1024/2", "build_image/full/1024/2", "≥ 2"),
+    ("Building a preview over mesh=full, two threads, 1024²", "build_image/preview/1024/2", "build_image/full/1024/2", "≥ 4"),
+    ("Retuning hdr_compress over building, two threads, 1024²", "retune/hdr_compress/1024/2", "build_image/auto/1024/2", "≥ 25"),
+    ("The same, one thread", "retune/hdr_compress/1024/1", "build_image/auto/1024/1", "≥ 25"),
+    *((f"Retuning {name}, two threads, over a plain copy of the bytes of hdr_compress, 1024²", f"retune/{name}/1024/2",
+       "copy/1024", "≥ 0.4") for name in ("hdr_compress", "lowpass_strength", "lowpass_fraction", "enhance_gain",
+                                          "enhance_strength", "level", "segment")),
+    ("Retuning hdr_compress, two threads, 8.3 over 1 Mpixel, per pixel", "retune/hdr_compress/1024/2",
+     "retune/hdr_compress/2880/2", "≤ 0.8"),
     ("Time per pixel, 16 Mpixel over 1 Mpixel", "build/1024", "build/4096", "≤ 1.15"),
 ]
 # The same with memory kept from run to run, the peers' as well: without what the kernel takes to map fresh pages.
@@ -59,30 +66,41 @@ def run_benchmarks(program, arguments, tunables=""):
     return median, {name: of[0] for name, of in by_name.items()}
 
 
-def cpu_seconds(command):
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+def seconds(command, environment):
+    """CPU and wall time of a command of the shell."""
+    before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
     subprocess.run(["bash", "-c", "set -o pipefail; " + command], check=True, stdout=subprocess.DEVNULL,
-                   stderr=subprocess.DEVNULL)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+                   stderr=subprocess.DEVNULL, env={**os.environ, **environment})
+    after, wall = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter() - start
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, wall
 
 
-def tone_mapping(pimgtool, picture, folder):
-    """CPU seconds from file to file: rows of (program, median)."""
-    png = os.path.join(folder, "out.png")
-    commands = {"pimgtool --hdr-compress": f"'{pimgtool}' --threads 1 '{picture}' --hdr-compress -o '{png}'"}
-    if shutil.which("pfsin") and shutil.which("pfstmo_fattal02"):
+def tone_mapping_commands(pimgtool, picture, png, threads):
+    """Commands from file to file, by name."""
+    pimg = f"'{pimgtool}' --threads {threads} '{picture}'"
+    commands = {"pimgtool --hdr-compress": f"{pimg} --hdr-compress -o '{png}'",
+                "pimgtool --build:mesh=full --hdr-compress": f"{pimg} --build:mesh=full --hdr-compress -o '{png}'",
+                "pimgtool --build:preview=1 --hdr-compress": f"{pimg} --build:preview=1 --hdr-compress -o '{png}'"}
+    if threads == 1 and shutil.which("pfsin") and shutil.which("pfstmo_fattal02"):
         for name in ("fattal02", "durand02", "mantiuk06"):
             commands["pfstmo_" + name] = f"pfsin '{picture}' | pfstmo_{name} | pfsout '{png}'"
     if shutil.which("luminance-hdr-cli"):
         for name in ("fattal", "durand", "mantiuk06", "ashikhmin", "reinhard02", "lischinski", "ferradans"):
             commands["luminance-hdr-cli --tmo " + name] = f"luminance-hdr-cli -l '{picture}' --tmo {name} -o '{png}'"
-    os.environ.update(OMP_NUM_THREADS="1", QT_QPA_PLATFORM="offscreen", HOME=folder)  # no window, no settings of the user's
-    times = {name: [] for name in commands}
+    return commands
+
+
+def tone_mapping(pimgtool, picture, folder):
+    """Rows of (program, threads, CPU seconds, wall seconds): medians, file to file, all by turns."""
+    png = os.path.join(folder, "out.png")
+    all_of = {(name, threads): command for threads in (1, 2)
+              for name, command in tone_mapping_commands(pimgtool, picture, png, threads).items()}
+    times = {key: [] for key in all_of}
     for _ in range(RUNS):
-        for name, command in commands.items():
-            times[name].append(cpu_seconds(command))
-    return [(name, statistics.median(t)) for name, t in times.items()]
+        for (name, threads), command in all_of.items():  # no window, no settings of the user's
+            times[name, threads].append(seconds(command, {"OMP_NUM_THREADS": str(threads), "HOME": folder,
+                                                          "QT_QPA_PLATFORM": "offscreen"}))
+    return [(*key, *(statistics.median(t[i] for t in of) for i in (0, 1))) for key, of in times.items()]
 
 
 def growth_svg(rate):
@@ -112,10 +130,10 @@ def growth_svg(rate):
 
 
 def print_tone_mapping(pimgtool, picture):
-    print(f"\n| {os.path.basename(picture)}, file to file | CPU seconds |\n|---|---|")
+    print(f"\n| {os.path.basename(picture)}, file to file | threads | CPU seconds | wall seconds |\n|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
-        for name, seconds in tone_mapping(pimgtool, picture, folder):
-            print(f"| {name} | {seconds:.2f} |")
+        for name, threads, cpu, wall in tone_mapping(pimgtool, picture, folder):
+            print(f"| {name} | {threads} | {cpu:.2f} | {wall:.2f} |")
 
 
 def main():

@@ -95,8 +95,9 @@ Bisection::Bisection(const Guide& guide, const BisectionLimits& limits, const Pa
         if (i % kRemovedBetweenStops == 0)
             stop_point();
         if (i >= kAhead)
-            remove(next[i % kAhead], sequence.records[first + i - kAhead],
-                   sequence.more.data() + (first + i - kAhead) * m_more_channels);
+            sequence.records.set(
+                first + i - kAhead,
+                remove(next[i % kAhead], sequence.more.data() + (first + i - kAhead) * m_more_channels));
         if (i < removed.size())
             prefetch(next[i % kAhead] = removal_of(removed[i]));
     }
@@ -293,8 +294,9 @@ int Bisection::ring_from(Index pixel, int first, int count, Index* ring) const
 
 /// Collapses the edge from t to u. t stays where it is; its intensities change so that the volume under the surface
 /// does not.
-void Bisection::remove(const Removal& r, CollapseRecord& record, SplitPair* more)
+CollapseRecord Bisection::remove(const Removal& r, SplitPair* more)
 {
+    CollapseRecord record;
     Spot &t = m_spots[r.t], &u = m_spots[r.u], &b = m_spots[r.b];
     // The star of the collapse: the ring of t from vr to vl, then b.
     Index ring[kDirections + 2];
@@ -334,6 +336,7 @@ void Bisection::remove(const Removal& r, CollapseRecord& record, SplitPair* more
         m_spots[vr].reach[std::size_t(turned(r.direction + 6))] = 0;
     if (vl != kGhost)
         m_spots[vl].reach[std::size_t(turned(r.direction + 2))] = 0;
+    return record;
 }
 
 }  // namespace PIMG_ABI

@@ -83,7 +83,7 @@ private:
     std::vector<Diagonal> diagonals(const Guide& guide, int y) const;
     Removal removal_of(Index u) const;
     void prefetch(const Removal& r) const;
-    void remove(const Removal& r, CollapseRecord& record, SplitPair* more);
+    CollapseRecord remove(const Removal& r, SplitPair* more);
 
     bool is_inside(int x, int y) const { return x >= 0 && y >= 0 && x < m_width && y < m_height; }
     Index pixel(int x, int y) const { return Index(y) * Index(m_width) + Index(x); }

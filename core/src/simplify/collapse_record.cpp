@@ -16,31 +16,31 @@ inline namespace PIMG_ABI {
 namespace {
 
 /// Indices of `records` by increasing order, ties in the order they were done.
-std::vector<Index> sorted(const FlatArray<CollapseRecord>& records, const ParallelFor& parallel)
+std::vector<Index> sorted(const CollapseRecords& records, const ParallelFor& parallel)
 {
     FlatArray<KeyedIndex> items;
     items.extend(records.size());
-    in_batches(parallel, records.size(), [&](std::size_t i) { items[i] = { records[i].order, Index(i) }; });
+    in_batches(parallel, records.size(), [&](std::size_t i) { items[i] = { records.rest()[i].order, Index(i) }; });
     return pimg::sorted(std::move(items), parallel);
 }
 
-/// Calls visit(i, record) for the splits i of a batch, coarse to fine. Their records are scattered in memory, so they
-/// are prefetched; some splits later fetch(record) prefetches what visit() will need besides.
-template<class Fetch, class Visit>
-void for_batch(std::size_t batch, const std::vector<Index>& by_order, const FlatArray<CollapseRecord>& records,
-               Fetch&& fetch, Visit&& visit)
+/// Calls visit(i, part) for the splits i of a batch, coarse to fine; `parts` are those of their records. These are scattered
+/// in memory, so they are prefetched; some splits later fetch(part) prefetches what visit() will need besides.
+template<class Part, class Fetch, class Visit>
+void for_batch(std::size_t batch, const std::vector<Index>& by_order, const FlatArray<Part>& parts, Fetch&& fetch,
+               Visit&& visit)
 {
     constexpr std::size_t kAhead = 32;
     const std::size_t n = by_order.size(), last = std::min(n, (batch + 1) * kBatch);
     for (std::size_t i = batch * kBatch; i < last; ++i) {
         if (i + kAhead < last) {
-            const CollapseRecord& later = records[by_order[n - 1 - i - kAhead]];
+            const Part& later = parts[by_order[n - 1 - i - kAhead]];
             __builtin_prefetch(&later);
-            __builtin_prefetch(&later.order);
+            __builtin_prefetch(reinterpret_cast<const char*>(&later + 1) - 1);
         }
         if (i + kAhead / 2 < last)
-            fetch(records[by_order[n - 1 - i - kAhead / 2]]);
-        visit(i, records[by_order[n - 1 - i]]);
+            fetch(parts[by_order[n - 1 - i - kAhead / 2]]);
+        visit(i, parts[by_order[n - 1 - i]]);
     }
 }
 
@@ -51,19 +51,17 @@ void prefetch_entry(const std::vector<Index>& number, Index name)
     __builtin_prefetch(reinterpret_cast<const void*>(first + name * sizeof(Index)));
 }
 
-/// Allocates one of several parts of the hierarchy's memory. Clearing it takes about as long as filling it, so the
-/// parts are tasks for several threads.
+/// Allocates one of several parts of the hierarchy's memory, all but the splits. Clearing it takes about as long as filling
+/// it, so the parts are tasks for several threads.
 void allocate(std::size_t part, std::size_t splits, std::size_t vertices, Hierarchy& h, std::vector<Bands>& bands)
 {
     if (part == 0)
         h.stencils.resize(splits);
-    else if (part == 1)
-        h.splits.resize(splits);
-    else if (part == 2) {
+    else if (part == 1) {
         h.costs.resize(splits);
         h.pixels.resize(vertices);
     } else
-        bands[part - 3].details.resize(splits);
+        bands[part - 2].details.resize(splits);
 }
 
 /// Number of each name: base vertices first, then one per split, coarse to fine. The memory of the hierarchy is
@@ -75,14 +73,15 @@ std::vector<Index> number_names(std::size_t names, const CollapseSequence& seque
     for (std::size_t v = 0; v < sequence.base.size(); ++v)
         number[sequence.base[v].name] = Index(v);
     const Index base = Index(sequence.base.size());
-    const std::size_t parts = 3 + bands.size();
+    const std::size_t parts = 2 + bands.size();
     run(parallel, parts + batches_of(by_order.size()), [&](std::size_t task) {
         if (task < parts)
             allocate(task, by_order.size(), names, h, bands);
         else
             for_batch(
-                task - parts, by_order, sequence.records, [&](const CollapseRecord& r) { prefetch_entry(number, r.u); },
-                [&](std::size_t i, const CollapseRecord& r) { number[r.u] = base + Index(i); });
+                task - parts, by_order, sequence.records.rest(),
+                [&](const CollapseRecords::Rest& r) { prefetch_entry(number, r.u); },
+                [&](std::size_t i, const CollapseRecords::Rest& r) { number[r.u] = base + Index(i); });
     });
     return number;
 }
@@ -103,24 +102,22 @@ void fill_base(const std::vector<BaseVertex>& base, const std::vector<Index>& nu
     }
 }
 
-/// Splits, stencils and costs in coarse-to-fine order; details hold the true intensities of t and u for now.
-void fill_splits(const CollapseSequence& sequence, const std::vector<Index>& by_order, const std::vector<Index>& number,
-                 const ParallelFor& parallel, Hierarchy& h, std::vector<Bands>& bands)
+/// Stencils and costs in coarse-to-fine order; details hold the true intensities of t and u for now.
+void fill_stencils(const CollapseSequence& sequence, const std::vector<Index>& by_order,
+                   const std::vector<Index>& number, const ParallelFor& parallel, Hierarchy& h,
+                   std::vector<Bands>& bands)
 {
-    const std::size_t n = sequence.records.size(), more = bands.size() - 1;
-    const auto renumber = [&](Index name) {
-        return name == kGhost ? kGhost : number[name];
-    };
-    const auto fetch = [&](const CollapseRecord& r) {
+    using Rest = CollapseRecords::Rest;
+    const std::size_t n = by_order.size(), more = bands.size() - 1;
+    const auto fetch = [&](const Rest& r) {
         const Stencil& k = r.stencil;
-        for (Index name : { r.split.s, r.split.vl, r.split.vr, k.at, k.bt, k.au, k.bu })
+        for (Index name : { k.s, k.at, k.bt, k.au, k.bu })
             prefetch_entry(number, name);
     };
-    const auto fill = [&](std::size_t i, const CollapseRecord& r) {
-        h.splits[i] = { number[r.split.s], renumber(r.split.vl), renumber(r.split.vr), r.split.t, r.split.u };
-        h.stencils[i] = { number[r.stencil.s],  number[r.stencil.at], number[r.stencil.bt],
-                          number[r.stencil.au], number[r.stencil.bu], r.stencil.wat,
-                          r.stencil.wbt,        r.stencil.wau,        r.stencil.wbu };
+    const auto fill = [&](std::size_t i, const Rest& r) {
+        const Stencil& k = r.stencil;
+        h.stencils[i] = { number[k.s], number[k.at], number[k.bt], number[k.au], number[k.bu],
+                          k.wat,       k.wbt,        k.wau,        k.wbu };
         h.costs[i] = r.order;
         bands[0].details[i] = { r.zt, r.zu };
         for (std::size_t c = 0; c < more; ++c) {
@@ -128,8 +125,26 @@ void fill_splits(const CollapseSequence& sequence, const std::vector<Index>& by_
             bands[c + 1].details[i] = { z.t, z.u };
         }
     };
-    run(parallel, batches_of(by_order.size()),
-        [&](std::size_t batch) { for_batch(batch, by_order, sequence.records, fetch, fill); });
+    run(parallel, batches_of(n),
+        [&](std::size_t batch) { for_batch(batch, by_order, sequence.records.rest(), fetch, fill); });
+}
+
+void fill_splits(const FlatArray<Split>& splits, const std::vector<Index>& by_order, const std::vector<Index>& number,
+                 const ParallelFor& parallel, Hierarchy& h)
+{
+    const auto renumber = [&](Index name) {
+        return name == kGhost ? kGhost : number[name];
+    };
+    const auto fetch = [&](const Split& split) {
+        for (Index name : { split.s, split.vl, split.vr })
+            prefetch_entry(number, name);
+    };
+    const auto fill = [&](std::size_t i, const Split& split) {
+        h.splits[i] = { number[split.s], renumber(split.vl), renumber(split.vr), split.t, split.u };
+    };
+    h.splits.resize(splits.size());
+    run(parallel, batches_of(splits.size()),
+        [&](std::size_t batch) { for_batch(batch, by_order, splits, fetch, fill); });
 }
 
 /// Pixels of the finest mesh: of vertices by their number, and those between.
@@ -160,7 +175,10 @@ Status assemble(int width, int height, const Finest& finest, CollapseSequence&& 
     std::vector<Index> by_order = sorted(done.records, finest.parallel);
     std::vector<Index> number = number_names(names, done, by_order, finest.parallel, h, b);
     fill_base(done.base, number, h, b);
-    fill_splits(done, by_order, number, finest.parallel, h, b);
+    fill_stencils(done, by_order, number, finest.parallel, h, b);
+    done.records.free_rest();
+    done.more = {};
+    fill_splits(done.records.splits(), by_order, number, finest.parallel, h);
     fill_pixels(finest, number, h);
     run(finest.parallel, 1 + b.size(), [&](std::size_t task) {
         if (task > 0) {

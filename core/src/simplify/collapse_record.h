@@ -24,6 +24,51 @@ struct CollapseRecord {
     float order;   ///< cost, no lower than that of any collapse this one needs
 };
 
+/// Records in the order in which collapses were done. Their splits are kept apart from the rest: a hierarchy is filled from
+/// one and then from the other, and the first is given back before the memory for the second is taken.
+class CollapseRecords {
+public:
+    /// A record without its split.
+    struct Rest {
+        Index u;
+        Stencil stencil;
+        float zt, zu;
+        float order;
+    };
+
+    std::size_t size() const { return m_splits.size(); }
+    std::size_t bytes() const { return size() * (sizeof(Split) + sizeof(Rest)); }
+    const FlatArray<Split>& splits() const { return m_splits; }
+    const FlatArray<Rest>& rest() const { return m_rest; }  ///< empty after free_rest()
+
+    void reserve(std::size_t n)
+    {
+        m_splits.reserve(n);
+        m_rest.reserve(n);
+    }
+    /// Appends n records, to be set.
+    void extend(std::size_t n)
+    {
+        m_splits.extend(n);
+        m_rest.extend(n);
+    }
+    void set(std::size_t i, const CollapseRecord& r)
+    {
+        m_splits[i] = r.split;
+        m_rest[i] = { r.u, r.stencil, r.zt, r.zu, r.order };
+    }
+    void push_back(const CollapseRecord& r)
+    {
+        extend(1);
+        set(size() - 1, r);
+    }
+    void free_rest() { m_rest = {}; }
+
+private:
+    FlatArray<Split> m_splits;
+    FlatArray<Rest> m_rest;
+};
+
 /// A vertex of the mesh that is left at the end.
 struct BaseVertex {
     Index name;
@@ -36,7 +81,7 @@ struct BaseVertex {
 /// All that is known when nothing is left to collapse.
 struct CollapseSequence {
     int channels = 1;
-    FlatArray<CollapseRecord> records;
+    CollapseRecords records;
     FlatArray<SplitPair> more;  ///< zt and zu of the channels after the first, channels - 1 a record
     std::vector<BaseVertex> base;
 };

@@ -135,7 +135,8 @@ void Simplifier::collect(std::size_t n)
     measure();
     pimg::run(m_options.parallel, n, [&](std::size_t i) {
         TileOutput& output = m_outputs[i];
-        std::copy(output.records.begin(), output.records.end(), m_sequence.records.begin() + first[i]);
+        for (std::size_t k = 0; k < output.records.size(); ++k)
+            m_sequence.records.set(first[i] + k, output.records[k]);
         std::copy(output.more.begin(), output.more.end(),
                   m_sequence.more.begin() + first[i] * std::size_t(m_mesh.more_channels));
         output.clear();
@@ -144,8 +145,7 @@ void Simplifier::collect(std::size_t n)
 
 void Simplifier::measure()
 {
-    std::size_t bytes = m_mesh.bytes() + m_sequence.records.size() * sizeof(CollapseRecord)
-        + m_sequence.more.size() * sizeof(SplitPair);
+    std::size_t bytes = m_mesh.bytes() + m_sequence.records.bytes() + m_sequence.more.size() * sizeof(SplitPair);
     for (const TileOutput& output : m_outputs)
         bytes += output.bytes();
     m_stats.peak_bytes = std::max(m_stats.peak_bytes, bytes);
