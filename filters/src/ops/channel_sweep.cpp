@@ -9,6 +9,7 @@
 #include "frame/positive_light.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 namespace {
 
@@ -151,4 +152,5 @@ void predict_finest(ProgressiveImage::Data& data, const PlannedChannels& planned
     });
 }
 
+}  // namespace PIMG_ABI
 }  // namespace pimg

@@ -7,6 +7,7 @@
 #include "source/progressive_image_data.h"
 
 namespace pimg {
+inline namespace PIMG_ABI {
 
 /// What the details of every split, times gains[i] with i the split's number in the hierarchy, add to the base mesh: a raster
 /// of mesh pixels for each channel. Residuals are left out.
@@ -23,4 +24,5 @@ Channels values_of_level(const ProgressiveImage::Data& data, const ChannelBands&
 void predict_finest(ProgressiveImage::Data& data, const PlannedChannels& planned, Level level, const Channels& values,
                     const ParallelFor& parallel, Channels& results);
 
+}  // namespace PIMG_ABI
 }  // namespace pimg
