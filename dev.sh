@@ -251,13 +251,13 @@ run_package() {
     say "building the packages in $tree"
     mkdir -p build
     cmake -S . -B "$tree" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=/usr -DPIMG_PACKAGING=ON \
-        -DPIMG_BUILD_TESTS=OFF -DPIMG_BUILD_BENCH=OFF -DPIMG_BUILD_PYTHON=ON -DPIMG_BUILD_GEGL=ON \
-        -DPIMG_INSTALL_PYTHONDIR=lib/python3/dist-packages "${launcher[@]}" >"$tree.configure.log" ||
+        -DPIMG_WERROR=ON -DPIMG_BUILD_TESTS=OFF -DPIMG_BUILD_BENCH=OFF -DPIMG_BUILD_PYTHON=ON -DPIMG_BUILD_GEGL=ON \
+        -DPIMG_BUILD_VIEW=ON -DPIMG_BUILD_OFX=OFF -DPIMG_INSTALL_PYTHONDIR=lib/python3/dist-packages "${launcher[@]}" >"$tree.configure.log" ||
         { cat "$tree.configure.log"; return 1; }
     cmake --build "$tree" -j "$jobs"
     (cd "$tree" && rm -f ./*.deb && cpack -G DEB >cpack.log) || { cat "$tree/cpack.log"; return 1; }
     say "lintian"
-    lintian --no-tag-display-limit --fail-on error "$tree"/*.deb
+    lintian --tag-display-limit 0 --fail-on error "$tree"/*.deb
     ls -l "$tree"/*.deb
 }
 

@@ -55,7 +55,7 @@ pimg_debian_package(dev libpimg-dev libdevel "progressive images for OpenImageIO
     "Headers, the C++ libraries pimg::core, pimg::codec, pimg::painting and\npimg::filters, and the files for CMake and pkg-config."
     "libpimg0 (= ${PROJECT_VERSION})" "libopenimageio-dev" "openimageio-tools" "libopencolorio-dev" "libhwy-dev" "liblcms2-dev" "libpugixml-dev" "libzstd-dev")
 pimg_debian_package(tools pimg-tools graphics "progressive images for OpenImageIO: command line"
-    "pimgtool tone-maps, smooths, segments and paints pictures of every format that\nOpenImageIO reads. The package also tells desktops what .pimg files are and\nshows thumbnails of them.")
+    "pimgtool tone-maps, smooths, segments and paints pictures of every format that\nOpenImageIO reads, and pimgview shows them while you turn the settings. The\npackage also tells desktops what .pimg files are and makes thumbnails of them.")
 pimg_debian_package(plugin openimageio-plugin-pimg graphics "progressive images for OpenImageIO: file format plugin"
     "Lets every program that uses OpenImageIO ${PIMG_OIIO_MINOR} read and write .pimg files.\nDebian's OpenImageIO has no folder for plugins of its own:\n/etc/profile.d/pimg.sh names ours in OIIO_LIBRARY_PATH at the next login.")
 if(TARGET pimg_python)
@@ -89,5 +89,6 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/packaging/conffiles")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/packaging/triggers")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/packaging/prerm")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 include(CPack)

@@ -115,9 +115,16 @@ endfunction()
 # pimg_vector_sources(<name> <source>...): sources of pimg_<name> that Highway compiles once per instruction set, chosen at run
 # time; every one gives the same bits. EMU128 is the portable baseline: the compiler bug it is held back for concerns
 # 16-bit integers, which are not used.
+# On ARM it is NEON: vectors of SVE have no size, and cannot be in arrays. What Highway calls NEON includes AES, which the
+# whole source is compiled for, as GCC does not inline NEON into constructors otherwise; no code of ours uses AES.
 function(pimg_vector_sources name)
+    set(disabled "HWY_SSSE3|HWY_AVX3_DL")
+    if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
+        set(disabled "HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128")
+        set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS "-march=armv8-a+crypto")
+    endif()
     set_source_files_properties(${ARGN} PROPERTIES
-        COMPILE_DEFINITIONS "HWY_BROKEN_EMU128=0;HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_AVX3_DL)")
+        COMPILE_DEFINITIONS "HWY_BROKEN_EMU128=0;HWY_DISABLED_TARGETS=(${disabled})")
 endfunction()
 
 # The vector code in one vector width, of inlined functions by the hundred, is what clang takes minutes to instrument: the

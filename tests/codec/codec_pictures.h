@@ -28,6 +28,12 @@ inline std::uint32_t noise(std::uint32_t& state)
     return state >> 8;
 }
 
+/// Without its fraction; of negative numbers, the lower bits, which only integers have on every machine.
+inline std::uint32_t whole(double number)
+{
+    return std::uint32_t(std::int64_t(number));
+}
+
 /// A slope with an edge and a little noise; channel c of any type, `types` one each.
 inline Picture make_picture(std::uint32_t width, std::uint32_t height, const std::vector<pimg::SampleType>& types,
                             std::uint32_t seed = 1)
@@ -47,16 +53,16 @@ inline Picture make_picture(std::uint32_t width, std::uint32_t height, const std
                 std::uint32_t bits = 0;
                 switch (types[c]) {
                 case pimg::SampleType::uint8:
-                    bits = std::uint32_t(level);
+                    bits = whole(level);
                     break;
                 case pimg::SampleType::uint16:
-                    bits = std::uint32_t(level * 200);
+                    bits = whole(level * 200);
                     break;
                 case pimg::SampleType::uint32:
-                    bits = std::uint32_t(level * 1e7);
+                    bits = whole(level * 1e7);
                     break;
                 case pimg::SampleType::half:
-                    bits = 0x2c00u + std::uint32_t(level * 20);
+                    bits = 0x2c00u + whole(level * 20);
                     break;
                 case pimg::SampleType::float32: {
                     const float f = float(level) / 255.0f;
