@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # arm64.sh: cross-compiles core, codec and painting for 64-bit ARM in build/arm64, runs their tests under qemu-user, and
-# compares the files that codec_conformance writes with those of build/release. Not part of the tests: it takes long
-# emulation, and Debian's packages g++-aarch64-linux-gnu, qemu-user and, unpacked in build/arm64/root, four for arm64.
+# compares the files that codec_conformance writes with those of build/release. Not part of the tests: emulation takes
+# long, and it needs Debian's packages g++-aarch64-linux-gnu and qemu-user, and loads five for arm64 into build/arm64.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 [[ -x build/release/tests/codec_conformance ]] || { echo "arm64.sh: expected build/release: ./dev.sh build" >&2; exit 2; }
