@@ -164,7 +164,7 @@ def strokes(pimgtool, photographs, work):
 def resize(photograph, factor, target):
     picture = oiio.ImageBuf(photograph)
     spec = picture.spec()
-    size = [int(round(factor * s / 4)) * 4 for s in (spec.width, spec.height)]
+    size = [factor * s for s in (spec.width, spec.height)]  # so that all have the same shape
     other = oiio.ImageBufAlgo.resize(picture, roi=oiio.ROI(0, size[0], 0, size[1], 0, 1, 0, spec.nchannels))
     oiio.ImageBufAlgo.clamp(other, other, 0.0, 1.0)
     other.write(target, 'uint8')

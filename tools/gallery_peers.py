@@ -5,7 +5,8 @@
 usage: gallery_peers.py PIMGTOOL WORK FOLDER [paint] [ink] [mosaic] PHOTOGRAPH...
 
 Every sheet is FOLDER/NAME_KIND.jpg, made in WORK; the commands are printed. Those of programs that are not installed are left out.
-Drawings are made of photographs of a thousand pixels, smaller ones at twice their size, and FOLDER/NAME_drawing.png is one of them at full size. Without a kind: all.
+FOLDER/NAME_drawing.png is the drawing of --ink at full size; photographs below a thousand pixels are enlarged twice for it. Without a
+kind: all.
 Debian: python3-numpy python3-openimageio gmic imagemagick gegl.
 """
 import os
@@ -96,15 +97,17 @@ def main():
     for photograph in (os.path.abspath(a) for a in sys.argv[4:] if a not in KINDS):
         name = os.path.splitext(os.path.basename(photograph))[0]
         for kind in kinds:
-            source = for_print(photograph, os.path.join(work, name + '_print.png')) if kind == 'ink' else photograph
-            pictures = [page.read_rgb(source)]
+            pictures = [page.read_rgb(photograph)]
             for i, command in enumerate(KINDS[kind]):
-                pixels = made(command, pimgtool, source, os.path.join(work, '%s_%s_%d.png' % (name, kind, i)))
+                pixels = made(command, pimgtool, photograph, os.path.join(work, '%s_%s_%d.png' % (name, kind, i)))
                 if pixels is not None:
                     pictures.append(pixels)
                     print(name, kind, len(pictures), command)
             if kind == 'ink':
-                write_drawing(pictures[2 if name in NIGHTS else 1], os.path.join(folder, name + '_drawing.png'))
+                source, target = (os.path.join(work, name + end) for end in ('_print.png', '_drawing.png'))
+                command = KINDS['ink'][1 if name in NIGHTS else 0]
+                drawing = made(command, pimgtool, for_print(photograph, source), target)
+                write_drawing(drawing, os.path.join(folder, name + '_drawing.png'))
             page.write_jpeg(os.path.join(folder, '%s_%s.jpg' % (name, kind)), page.sheet(pictures, COLUMNS, WIDTH))
 
 
