@@ -148,6 +148,8 @@ TEST(FileList, FindsFramesAndFolders)
     for (const char* pattern : { "frames/shot.#.exr", "frames/shot.####.exr", "frames/shot.%04d.exr", "frames" })
         EXPECT_EQ(expand_files({ pattern }), names) << pattern;
     EXPECT_EQ(list_folder("."), list_folder("./"));
+    ASSERT_TRUE(OIIO::Filesystem::create_directory("frames/none", error)) << error;
+    EXPECT_EQ(expand_files({ "frames/none" }), (std::vector<std::string> { "frames/none" }));
 }
 
 TEST(History, GoesBackAndForth)

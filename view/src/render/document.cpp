@@ -258,6 +258,10 @@ bool Document::read(int version, const std::atomic<bool>& stop)
         fail(version, format("cannot read \"{}\": no such file", filename));
         return false;
     }
+    if (OIIO::Filesystem::is_directory(filename)) {
+        fail(version, format("cannot read \"{}\": expected a folder with pictures", filename));
+        return false;
+    }
     show_glimpse(version, stop);
     pimgtool::InputOptions options;
     options.part = state().part;

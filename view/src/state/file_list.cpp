@@ -75,9 +75,12 @@ std::vector<std::string> expand_files(const std::vector<std::string>& given)
         const bool exists = Filesystem::exists(name);
         if (exists && Filesystem::is_directory(name)) {
             const std::string folder = name.back() == '/' ? name : name + '/';
+            const std::size_t before = files.size();
             for (const std::string& entry : list_folder(name))
                 if (entry.back() != '/')
                     files.push_back(folder + entry);
+            if (files.size() == before)
+                files.push_back(name);  // reading it says what is wrong
         } else if (!exists && name.find_first_of("#%@") != name.npos) {
             const std::vector<std::string> frames = frames_of(name);
             files.insert(files.end(), frames.begin(), frames.end());
