@@ -47,9 +47,10 @@ close() { # seconds that it may take
     wait "$pid"
     [[ $((SECONDS - before)) -le $1 ]] || { echo "closing took $((SECONDS - before)) s" >&2 && exit 1; }
 }
+# A window on a busy machine looks at the pointer a few times a second: it rests at both ends, and goes by where nothing is.
 drag() { # x y to_x to_y
-    xdotool mousemove --window "$window" "$1" "$2" sleep 0.2 mousedown 1 sleep 0.2 mousemove --window "$window" \
-        $((($1 + $3) / 2)) $((($2 + $4) / 2)) sleep 0.2 mousemove --window "$window" "$3" "$4" sleep 0.2 mouseup 1 sleep 0.2
+    xdotool mousemove --window "$window" "$1" "$2" sleep 0.5 mousedown 1 sleep 0.5 mousemove --window "$window" \
+        345 $((($2 + $4) / 2)) sleep 0.3 mousemove --window "$window" "$3" "$4" sleep 0.5 mouseup 1 sleep 0.3
 }
 press() { xdotool key --window "$window" "$@" sleep 0.1; }
 shows() { # pattern: the operations in the title, sooner or later
@@ -90,8 +91,8 @@ xdotool mousemove --window "$window" 120 $slider sleep 0.2 keydown ctrl sleep 0.
     type --delay 100 "1.25"
 press Return
 shows " --detail-enhance:gain=1.25 --level:fraction=0.5"
-for _ in {1..10}; do # a busy machine may not see two clicks as one double click
-    xdotool click --repeat 2 --delay 60 1 sleep 0.5
+for pause in {60,120,180,240}{,,}; do # slow frames see two clicks only if they are far enough apart
+    xdotool click --repeat 2 --delay "$pause" 1 sleep 0.7
     [[ $(xdotool getwindowname "$window") == *gain* ]] || break
 done
 shows " --detail-enhance --level:fraction=0.5"
