@@ -160,9 +160,18 @@ void Window::begin_panels()
     ImGui_ImplOpenGL3_Init("#version 150");
 }
 
-/// Keys wait here for the next frame. Dear ImGui only knows which are down, and misses those that are up again by then.
+/// Keys wait here for the next frame. Dear ImGui only knows which are down, and would miss those that are up again by then,
+/// such as the Enter that ends typing: it is told of that after the frame.
 void Window::on_key(GLFWwindow* window, int code, int scan, int action, int modifiers)
 {
+    auto* self = static_cast<Window*>(glfwGetWindowUserPointer(window));
+    const int place = code;
+    const bool unseen = std::any_of(self->m_pressed.begin(), self->m_pressed.end(),
+                                    [place](const Pressed& pressed) { return pressed.place == place; });
+    if (action == GLFW_RELEASE && unseen) {
+        self->m_released.push_back(place);
+        return;
+    }
     ImGui_ImplGlfw_KeyCallback(window, code, scan, action, modifiers);
     if (action == GLFW_RELEASE)
         return;
@@ -170,8 +179,7 @@ void Window::on_key(GLFWwindow* window, int code, int scan, int action, int modi
     const char* name = code >= GLFW_KEY_A && code <= GLFW_KEY_Z ? glfwGetKeyName(code, scan) : nullptr;
     if (name != nullptr && name[0] >= 'a' && name[0] <= 'z' && name[1] == '\0')
         code = name[0] - 'a' + GLFW_KEY_A;
-    auto* self = static_cast<Window*>(glfwGetWindowUserPointer(window));
-    self->m_pressed.push_back({ code, (modifiers & GLFW_MOD_CONTROL) != 0, (modifiers & GLFW_MOD_SHIFT) != 0 });
+    self->m_pressed.push_back({ code, (modifiers & GLFW_MOD_CONTROL) != 0, (modifiers & GLFW_MOD_SHIFT) != 0, place });
 }
 
 Viewport Window::area() const
@@ -198,6 +206,8 @@ Viewport Window::area() const
 void Window::keys()
 {
     const std::vector<Pressed> pressed_keys = std::exchange(m_pressed, {});
+    for (const int place : std::exchange(m_released, {}))
+        ImGui_ImplGlfw_KeyCallback(m_window, place, 0, GLFW_RELEASE, 0);
     if (ImGui::GetIO().WantTextInput)
         return;
     for (const Pressed& pressed : pressed_keys)
@@ -446,7 +456,7 @@ void Window::inject_random_events()
             io.KeysDown[key.code] = true;
             io.KeyCtrl = key.control;
             io.KeyShift = key.shift;
-            m_pressed.push_back({ key.code, key.control, key.shift });
+            m_pressed.push_back({ key.code, key.control, key.shift, key.code });
         }
         break;
     }

@@ -48,6 +48,7 @@ private:
     struct Pressed {
         int code;
         bool control, shift;
+        int place;  ///< on a US keyboard, as GLFW numbers keys
     };
 
     static void on_key(GLFWwindow* window, int code, int scan, int action, int modifiers);
@@ -64,6 +65,7 @@ private:
     std::string m_title;
     std::vector<std::string> m_dropped;
     std::vector<Pressed> m_pressed;  ///< since the last frame
+    std::vector<int> m_released;     ///< of these, which Dear ImGui has not been told of
 
     int m_settled_frames = 0;
     double m_drawn_at = 0.0;
