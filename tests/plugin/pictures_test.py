@@ -49,13 +49,13 @@ class Pictures(plugin_files.PluginTest):
             if wanted is None:
                 continue
             seen += 1
-            for profile in ("compact", "full"):
-                side = CORNER if profile == "full" else 1 << 20
-                width, height = min(side, spec.width), min(side, spec.height)
-                crop = [] if (width, height) == (spec.width, spec.height) else [
-                    "--crop", f"{width}x{height}{spec.x:+d}{spec.y:+d}"]
-                self.ok("oiiotool", name, *crop, "--attrib", "pimg:profile", profile, "-o", "a.pimg")
-                found = opened("a.pimg")
+            corner = min(CORNER, spec.width), min(CORNER, spec.height)
+            crop = [] if corner == (spec.width, spec.height) else [
+                "--crop", f"{corner[0]}x{corner[1]}{spec.x:+d}{spec.y:+d}"]
+            self.ok("oiiotool", name, "--attrib", "pimg:profile", "compact", "-o", "compact.pimg",
+                    *crop, "--attrib", "pimg:profile", "full", "-o", "full.pimg")
+            for profile, (width, height) in ("compact", (spec.width, spec.height)), ("full", corner):
+                found = opened(f"{profile}.pimg")
                 self.assertEqual(found.spec().get_string_attribute("compression"), profile, name)
                 roi = oiio.ROI(spec.x, spec.x + width, spec.y, spec.y + height, 0, 1, 0, spec.nchannels)
                 self.assertEqual((found.spec().roi, found.spec().roi_full), (roi, spec.roi_full), name)
