@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/pictures.h"
-#include "drawing/raster_ops.h"
+#include "painting/drawing/rasters.h"
 
 using namespace pimg;
 
@@ -17,10 +17,7 @@ constexpr int kSize = 120;
 template<class F>
 Study study_of(F&& f)
 {
-    Raster raster = make_raster(kSize, kSize);
-    for (int y = 0; y < kSize; ++y)
-        for (int x = 0; x < kSize; ++x)
-            raster.samples[std::size_t(y * kSize + x)] = f(x, y);
+    const Raster raster = test::raster_of(kSize, kSize, f);
     return { raster, { raster }, { raster }, make_raster(kSize, kSize) };
 }
 

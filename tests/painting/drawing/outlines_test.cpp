@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/pictures.h"
-#include "drawing/raster_ops.h"
+#include "painting/drawing/rasters.h"
 
 using namespace pimg;
 
@@ -18,11 +18,7 @@ constexpr int kSize = 200;
 template<class F>
 Raster picture(F&& f)
 {
-    Raster raster = make_raster(kSize, kSize);
-    for (int y = 0; y < kSize; ++y)
-        for (int x = 0; x < kSize; ++x)
-            raster.samples[std::size_t(y * kSize + x)] = f(x, y);
-    return raster;
+    return test::raster_of(kSize, kSize, f);
 }
 
 /// A disk of radius 60 with a rim that is `soft` pixels wide.

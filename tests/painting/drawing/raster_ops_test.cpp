@@ -6,17 +6,15 @@
 
 #include <gtest/gtest.h>
 
+#include "painting/drawing/rasters.h"
+
 using namespace pimg;
 
 namespace {
 
 Raster ramp(int width, int height)
 {
-    Raster raster = make_raster(width, height);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            raster.samples[std::size_t(y * width + x)] = 3.0f * float(x) - 2.0f * float(y);
-    return raster;
+    return test::raster_of(width, height, [](int x, int y) { return 3.0f * float(x) - 2.0f * float(y); });
 }
 
 float mean(const Raster& raster)

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/pictures.h"
-#include "drawing/raster_ops.h"
+#include "painting/drawing/rasters.h"
 #include "painting/scene.h"
 
 using namespace pimg;
@@ -19,14 +19,11 @@ constexpr int kSize = 160;
 /// A disk and a small one on a ground with fine noise.
 Raster disks()
 {
-    Raster raster = make_raster(kSize, kSize);
-    for (int y = 0; y < kSize; ++y)
-        for (int x = 0; x < kSize; ++x) {
-            const bool large = std::hypot(x - 60, y - 80) < 40, little = std::hypot(x - 130, y - 30) < 5;
-            raster.samples[std::size_t(y * kSize + x)] = 90.0f + (large ? 70.0f : 0.0f) + (little ? 14.0f : 0.0f)
-                + 4.0f * test::noise(std::uint32_t(x), std::uint32_t(y));
-        }
-    return raster;
+    return test::raster_of(kSize, kSize, [](int x, int y) {
+        const bool large = std::hypot(x - 60, y - 80) < 40, little = std::hypot(x - 130, y - 30) < 5;
+        return 90.0f + (large ? 70.0f : 0.0f) + (little ? 14.0f : 0.0f)
+            + 4.0f * test::noise(std::uint32_t(x), std::uint32_t(y));
+    });
 }
 
 TEST(Study, BordersOfLargeSegmentsLastLonger)
