@@ -18,6 +18,7 @@
 #include "source/gains/contrast_envelope.h"
 #include "source/lab.h"
 #include "source/progressive_image_data.h"
+#include "source/to_picture.h"
 #include "source/wrap/latitude.h"
 
 namespace pimg {
@@ -49,9 +50,7 @@ private:
 std::vector<float> mesh_samples(const ProgressiveImage::Data& data, int channel, int exponent)
 {
     std::vector<float> samples = channel_samples(data, channel);
-    if (exponent != 0)
-        for (float& sample : samples)
-            sample = std::ldexp(sample, -exponent);
+    scale_by_power(-exponent, samples);
     return to_mesh_pixels(data.hierarchy, samples.data());
 }
 

@@ -133,9 +133,8 @@ void to_picture(const Hierarchy& hierarchy, const SmoothingData& smoothing, Chan
         crop_to_picture(hierarchy, samples);
         if (smoothing.log)
             smoothing.scale.from_log(samples.data(), samples.size());
-        else if (smoothing.exponent != 0)
-            for (float& sample : samples)
-                sample = std::ldexp(sample, smoothing.exponent);
+        else
+            scale_by_power(smoothing.exponent, samples);
     }
 }
 

@@ -9,11 +9,6 @@
 namespace pimg {
 inline namespace PIMG_ABI {
 
-/// From values of the finest level in vertex order to a raster of the picture's size, plus `factor` times the residual
-/// if given (of mesh pixels, or empty), times 2^exponent.
-std::vector<float> to_picture(const Hierarchy& hierarchy, const float* values, int exponent = 0,
-                              const std::vector<float>* residual = nullptr, float factor = 1.0f);
-
 /// From a raster of the mesh's size to one of the picture's: the same, but for pictures one pixel wide or high.
 void crop_to_picture(const Hierarchy& hierarchy, std::vector<float>& samples);
 
