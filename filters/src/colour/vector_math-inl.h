@@ -23,6 +23,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Lanes = hn::CappedTag<float, 8>;
 using Vector = hn::Vec<Lanes>;
+using Mask = hn::Mask<Lanes>;
 
 /// 2^x for x of -126 to 127, to which it is clamped: the series of e^x on half an octave to both sides.
 HWY_INLINE Vector exp2(Vector x)

@@ -143,35 +143,27 @@ HWY_INLINE Pixels converted(const float (&matrix)[3][3], const Pixels& p)
              weighted(matrix[2], p.r, p.g, p.b) };
 }
 
-HWY_INLINE auto outside(const Recolour& how, const Pixels& rec709)
+HWY_INLINE Mask outside(const Recolour& how, const Pixels& rec709)
 {
     const Pixels p = how.wide ? converted(kToP3, rec709) : rec709;
     const Vector least = hn::Min(hn::Min(p.r, p.g), p.b), most = hn::Max(hn::Max(p.r, p.g), p.b);
     return hn::Or(least<set(0.0f), most> set(1.0f));
 }
 
-/// Draws colours of luminance y, which is positive and at most 1, into the display's gamut.
-HWY_INLINE void into_gamut(const Recolour& how, Vector y, Pixels& p)
+/// Draws the colours of `near` that are outside the display's gamut, or almost, into it. A function of its own, because
+/// few pixels need it and its code is long.
+HWY_NOINLINE void draw_into_gamut(const Recolour& how, Vector y, Mask near, Pixels& p)
 {
-    // Most colours are far inside the gamut. A quick test finds them: it moves them away from grey along a straight
-    // line, which is near to the line of constant hue.
-    constexpr float kMargin = 1.6f;
-    Pixels beyond = p;
-    for (Vector* channel : { &beyond.r, &beyond.g, &beyond.b })
-        *channel = y + set(kMargin) * (*channel - y);
-    const auto near = outside(how, beyond);
-    if (hn::AllFalse(Lanes(), near))
-        return;
     const HueLine line(how, y, p);
     // The share at which the line leaves the gamut, if that is before 1 / kFullSaturation.
     constexpr int kHalvings = 10;  // to a thousandth of the way, which is not seen
     Vector in = set(0.0f), out = set(1.0f / kFullSaturation);
-    const auto leaves = hn::And(near, outside(how, line.at(out)));
+    const Mask leaves = hn::And(near, outside(how, line.at(out)));
     if (hn::AllFalse(Lanes(), leaves))
         return;
     for (int i = 0; i < kHalvings; ++i) {
         const Vector middle = set(0.5f) * (in + out);
-        const auto is_out = outside(how, line.at(middle));
+        const Mask is_out = outside(how, line.at(middle));
         out = hn::IfThenElse(is_out, middle, out);
         in = hn::IfThenElse(is_out, in, middle);
     }
@@ -188,6 +180,20 @@ HWY_INLINE void into_gamut(const Recolour& how, Vector y, Pixels& p)
         *channel = hn::Min(hn::Max(*channel, set(0.0f)), set(1.0f));
     if (how.wide)
         p = converted(kFromP3, p);
+}
+
+/// Draws colours of luminance y, which is positive and at most 1, into the display's gamut.
+HWY_INLINE void into_gamut(const Recolour& how, Vector y, Pixels& p)
+{
+    // Most colours are far inside the gamut. A quick test finds them: it moves them away from grey along a straight
+    // line, which is near to the line of constant hue.
+    constexpr float kMargin = 1.6f;
+    Pixels beyond = p;
+    for (Vector* channel : { &beyond.r, &beyond.g, &beyond.b })
+        *channel = y + set(kMargin) * (*channel - y);
+    const Mask near = outside(how, beyond);
+    if (!hn::AllFalse(Lanes(), near))
+        draw_into_gamut(how, y, near, p);
 }
 
 /// Mixes colours with the grey of their luminance; the more, the more of their light is noise.
@@ -212,10 +218,6 @@ HWY_INLINE void fit(const Recolour& how, Vector from, Vector y, Pixels& p)
     for (Vector* channel : { &p.r, &p.g, &p.b }) {
         const Vector scaled = *channel * ratio;
         *channel = any_huge ? hn::IfThenElse(is_huge, *channel / from * y, scaled) : scaled;
-    }
-    if (how.curve.most == 1.0f) {
-        into_gamut(how, y, p);
-        return;
     }
     scale(set(1.0f / how.curve.most), p);
     into_gamut(how, y * set(1.0f / how.curve.most), p);
