@@ -272,7 +272,7 @@ bool Bisection::leads_outside(Index pixel, int direction) const
 Index Bisection::neighbour(Index pixel, int direction) const
 {
     const int reach = m_spots[pixel].reach[std::size_t(direction)];
-    return reach == 0 ? kGhost : Index(pixel + (m_offset[std::size_t(direction)] << (reach - 1)));
+    return reach == 0 ? kGhost : Index(pixel + (Index(m_offset[std::size_t(direction)]) << (reach - 1)));
 }
 
 /// The neighbours in `count` directions from `first` on, the ghost once.
