@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drawing/at_once.h"
 #include "drawing/hatching.h"
 #include "drawing/outlines.h"
 #include "drawing/raster_ops.h"
@@ -171,6 +172,16 @@ Drawing empty_drawing(const Plate& plate)
     return drawing;
 }
 
+/// Adds the lines of one drawing to another of its size.
+void append(const Drawing& lines, Drawing& drawing)
+{
+    for (InkLine line : lines.lines) {
+        line.first += Index(drawing.points.size());
+        drawing.lines.push_back(line);
+    }
+    drawing.points.insert(drawing.points.end(), lines.points.begin(), lines.points.end());
+}
+
 /// Where hatching ends: at outlines, before them where it is dark, and at what is left white.
 Raster find_stops(const Plate& plate, const Raster& cover, const Raster& outlined, const PenOptions& options)
 {
@@ -190,11 +201,9 @@ Raster find_stops(const Plate& plate, const Raster& cover, const Raster& outline
     return stops;
 }
 
-void hatch(const Plate& plate, const Covers& covers, const Raster& outlined, const PenOptions& options,
-           Drawing& drawing)
+void hatch(const Plate& plate, const Covers& covers, const Raster& stops, const PenOptions& options, Drawing& drawing)
 {
     const FormField field(plate.study.base, options.style == InkStyle::hatch ? 1.2f : 0.12f, options.parallel);
-    const Raster stops = find_stops(plate, covers.first, outlined, options);
     HatchLayer layer;
     layer.cover = &covers.first;
     layer.stops = &stops;
@@ -204,13 +213,16 @@ void hatch(const Plate& plate, const Covers& covers, const Raster& outlined, con
     layer.length = options.length;
     layer.least = kLightest;
     layer.seed = scramble(options.seed);
-    add_hatching(field, layer, drawing);
-    layer.cover = &covers.second;
-    layer.ink_of = nullptr;
-    layer.turn = kCrossing * float(elementary::kPi / 180.0);
-    layer.least = kLeastAcross;
-    layer.seed = scramble(layer.seed);
-    add_hatching(field, layer, drawing);
+    HatchLayer across = layer;
+    across.cover = &covers.second;
+    across.ink_of = nullptr;
+    across.turn = kCrossing * float(elementary::kPi / 180.0);
+    across.least = kLeastAcross;
+    across.seed = scramble(layer.seed);
+    Drawing lines = empty_drawing(plate);
+    at_once(
+        options.parallel, [&] { add_hatching(field, layer, drawing); }, [&] { add_hatching(field, across, lines); });
+    append(lines, drawing);
 }
 
 /// Makes lines wider where the drawing is too light and narrower where it is too dark, as seen from some distance.
@@ -220,11 +232,7 @@ void match_tone(const Plate& plate, const Drawing& outlines, const PenOptions& o
     const Raster wanted = blurred(plate.tone, sigma, options.parallel);
     for (int round = 0; round < kRounds; ++round) {
         Drawing both = drawing;
-        for (InkLine line : outlines.lines) {
-            line.first += Index(drawing.points.size());
-            both.lines.push_back(line);
-        }
-        both.points.insert(both.points.end(), outlines.points.begin(), outlines.points.end());
+        append(outlines, both);
         const Raster shown = blurred(seen(both, plate, options.parallel), sigma, options.parallel);
         in_batches(options.parallel, drawing.lines.size(), [&](std::size_t i) {
             const InkLine& line = drawing.lines[i];
@@ -251,10 +259,10 @@ void match_tone(const Plate& plate, const Drawing& outlines, const PenOptions& o
 void draw_ink(const InkPicture& picture, const PenOptions& options, Drawing& drawing)
 {
     const Plate plate = make_plate(picture, options);
-    Drawing outlines = empty_drawing(plate);
+    drawing = empty_drawing(plate);
+    Drawing outlines = drawing;
     if (options.outline > 0.0f)
         add_outlines(plate.study, { plate.pen, options.outline, options.detail, options.parallel }, outlines);
-    drawing = empty_drawing(plate);
     if (options.density > 0.0f) {
         const Raster outlined = seen(outlines, plate, options.parallel);
         const Covers covers = find_covers(plate, outlined, options);
@@ -263,14 +271,10 @@ void draw_ink(const InkPicture& picture, const PenOptions& options, Drawing& dra
                         { plate.pen, kLightest, plate.ink_of.empty() ? nullptr : &plate.ink_of, options.seed },
                         drawing);
         else
-            hatch(plate, covers, outlined, options, drawing);
+            hatch(plate, covers, find_stops(plate, covers.first, outlined, options), options, drawing);
         match_tone(plate, outlines, options, drawing);
     }
-    for (InkLine line : outlines.lines) {
-        line.first += Index(drawing.points.size());
-        drawing.lines.push_back(line);
-    }
-    drawing.points.insert(drawing.points.end(), outlines.points.begin(), outlines.points.end());
+    append(outlines, drawing);
     simplify_lines(drawing, kTolerance * plate.pen);
     drawing = resized(drawing, picture.width, picture.height);
     for (const Ink& ink : picture.inks)

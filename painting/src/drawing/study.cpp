@@ -15,6 +15,7 @@
 #include <pimg/simplify.h>
 #include <pimg/smoothing.h>
 
+#include "drawing/at_once.h"
 #include "drawing/raster_ops.h"
 
 namespace pimg {
@@ -112,21 +113,26 @@ void spread(Raster& raster, const ParallelFor& parallel)
              [&](int x) { spread_along(across, raster.samples, std::size_t(x), w, raster.height); });
 }
 
-Raster borders_of(const Hierarchy& hierarchy, const std::vector<Raster>& features, const ParallelFor& parallel)
+/// The number of the piece of every cell.
+std::vector<Index> pieces_of(const Hierarchy& hierarchy)
+{
+    DualPieces pieces;
+    if (!DualPieces::from_hierarchy(hierarchy, pieces))
+        return {};
+    const float count = float(hierarchy.mesh_pixels()) / kCellsPerPiece;
+    return pieces.labels(hierarchy.level_of_vertices(double(count)));
+}
+
+Raster borders_of(const std::vector<Index>& pieces, const std::vector<Raster>& features)
 {
     Raster borders = make_raster(features[0].width, features[0].height);
     std::vector<Raster> scaled = features;
     for (Raster& channel : scaled)
         for (float& sample : channel.samples)
             sample *= kLabPerStep;
-    DualPieces pieces;
     RegionTree tree;
-    if (!DualPieces::from_hierarchy(hierarchy, pieces))
-        return borders;
-    const float count = float(borders.samples.size()) / kCellsPerPiece;
-    const std::vector<Index> labels = pieces.labels(hierarchy.level_of_vertices(double(count)));
     RegionOptions options;
-    options.pieces = &labels;
+    options.pieces = &pieces;
     options.floor = 1e-6f;  // borders in flat places are of no importance, however large the segments
     if (!RegionTree::build(view_of(scaled), options, tree))
         return borders;
@@ -138,7 +144,6 @@ Raster borders_of(const Hierarchy& hierarchy, const std::vector<Raster>& feature
             break;
         mark_borders(tree.labels(regions), cut, borders);
     }
-    spread(borders, parallel);
     return borders;
 }
 
@@ -161,13 +166,22 @@ Study make_study(std::vector<Raster> channels, const ParallelFor& parallel)
     Channels samples;
     for (Raster& channel : channels)
         samples.push_back(std::move(channel.samples));
-    const SmoothingSource source = analyse_for_smoothing(hierarchy, std::move(samples));
-    Channels smoothed;
-    smooth(hierarchy, source, { kTexture, parallel }, smoothed);
-    study.features = rasters_of(std::move(smoothed), w, h);
-    smooth(hierarchy, source, { kUnimportant, parallel }, smoothed);
-    study.base = rasters_of(std::move(smoothed), w, h);
-    study.borders = borders_of(hierarchy, study.features, parallel);
+    // What is done one step after the other is done beside other work.
+    SmoothingSource source;
+    std::vector<Index> pieces;
+    at_once(
+        parallel, [&] { source = analyse_for_smoothing(hierarchy, std::move(samples)); },
+        [&] { pieces = pieces_of(hierarchy); });
+    Channels features, base;
+    smooth(hierarchy, source, { kTexture, parallel }, features);
+    study.features = rasters_of(std::move(features), w, h);
+    at_once(
+        parallel, [&] { study.borders = borders_of(pieces, study.features); },
+        [&] {
+            smooth(hierarchy, source, { kUnimportant, {} }, base);
+        });
+    study.base = rasters_of(std::move(base), w, h);
+    spread(study.borders, parallel);
     for (std::vector<Raster>* rasters : { &study.features, &study.base })
         for (Raster& raster : *rasters)
             resize(raster, width, height);
