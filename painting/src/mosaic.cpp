@@ -95,8 +95,8 @@ std::vector<std::vector<float>> tile_colours(const Tiling& tiling, Index tiles, 
         const float grey = coloured ? (colours[0][t] + colours[1][t] + colours[2][t]) / 3.0f : 0.0f;
         for (std::size_t c = 0; c < channels.size(); ++c) {
             float& colour = colours[c][t];
-            if (options.leading > 0.0f && coloured && c < 3)
-                colour = grey + kSaturation * (colour - grey);
+            if (options.leading > 0.0f && coloured && c < 3)  // no light becomes less than none
+                colour = std::max(grey + kSaturation * (colour - grey), std::min(colour, 0.0f));
             colour *= light * (c == 0 ? 1.0f + warm : c == 2 ? 1.0f - warm : 1.0f);
         }
     }

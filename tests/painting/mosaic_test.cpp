@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pimg/mosaic.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "painting/scene.h"
@@ -126,6 +127,18 @@ TEST(Mosaic, GlassGlowsBetweenRoundLead)
     }
     EXPECT_GT(lead, samples.size() / 20);
     EXPECT_GT(shining, 50u) << "the side towards the light";
+}
+
+TEST(Mosaic, GlassOfPureColourHasNoLightBelowZero)
+{
+    const TiledScene scene(test::make("constant", 90, 60, [](int, int) { return 50; }));
+    std::vector<float> red = scene.samples, green(red.size(), 1.0f), blue(red.size(), -2.0f);
+    TileOptions options;
+    options.leading = 4.0f;
+    lay_mosaic(scene.tiling, scene.mesh.size(), options, { 0.0f, 0.0f, 0.0f },
+               { red.data(), green.data(), blue.data() });
+    EXPECT_GE(*std::min_element(green.begin(), green.end()), 0.0f);
+    EXPECT_LT(*std::min_element(blue.begin(), blue.end()), -1.0f) << "colours outside of the gamut stay outside";
 }
 
 }  // namespace

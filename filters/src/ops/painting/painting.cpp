@@ -125,7 +125,11 @@ std::vector<float> darkness(const ProgressiveImage::Data& data, const OwnedChann
         std::nth_element(sorted.begin(), place(0.01), sorted.end());
         black = *place(0.01);
         std::nth_element(sorted.begin(), place(0.99), sorted.end());
-        white = std::max(*place(0.99), black + kUnitsToAStop);
+        white = *place(0.99);
+        // What has less than a stop of contrast is drawn in middle tones: nothing says that it is dark.
+        const float missing = std::max(0.0f, kUnitsToAStop - (white - black));
+        black -= 0.5f * missing;
+        white += 0.5f * missing;
     }
     for (float& tone : tones)
         tone = std::clamp((white - tone) / (white - black), 0.0f, 1.0f);

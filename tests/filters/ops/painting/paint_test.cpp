@@ -392,6 +392,22 @@ TEST(ink, is_black_on_white_and_exports_lines)
     EXPECT_EQ(first.substr(0, 4), "<svg");
 }
 
+TEST(ink, draws_linear_light_without_contrast_in_middle_tones)
+{
+    for (const float light : { 0.01f, 1.0f, 300.0f }) {
+        ImageBuf src(ImageSpec(60, 40, 3, OIIO::TypeDesc::FLOAT));
+        OIIO::ImageBufAlgo::fill(src, { light, light, light });
+        pimg::InkOptions options;
+        options.width = 1.0f;
+        double mean = 0.0;
+        const std::vector<float> drawn = samples(iba::ink(src, options), 0);
+        for (const float v : drawn)
+            mean += double(v) / double(drawn.size());
+        EXPECT_GT(mean, 0.3) << light;
+        EXPECT_LT(mean, 0.7) << light;
+    }
+}
+
 TEST(ink, draws_in_the_inks_asked_for)
 {
     ImageBuf src(OIIO::ImageSpec(160, 120, 3, OIIO::TypeDesc::FLOAT));
