@@ -99,6 +99,26 @@ HWY_INLINE Pixels from_oklab(const Lab& lab)
     return { weighted(kRgb[0], l, m, s), weighted(kRgb[1], l, m, s), weighted(kRgb[2], l, m, s) };
 }
 
+// Between linear Rec. 709 and Display P3, which have one white.
+constexpr float kToP3[3][3] = { { 0.8224619688f, 0.1775380312f, 0.0f },
+                                { 0.0331941989f, 0.9668058011f, 0.0f },
+                                { 0.0170826307f, 0.0723974407f, 0.9105199286f } };
+constexpr float kFromP3[3][3] = { { 1.2249401763f, -0.2249401763f, 0.0f },
+                                  { -0.0420569547f, 1.0420569547f, 0.0f },
+                                  { -0.0196375546f, -0.0786360456f, 1.0982736001f } };
+
+HWY_INLINE Pixels converted(const float (&matrix)[3][3], const Pixels& p)
+{
+    return { weighted(matrix[0], p.r, p.g, p.b), weighted(matrix[1], p.r, p.g, p.b),
+             weighted(matrix[2], p.r, p.g, p.b) };
+}
+
+/// Linear samples by the primaries of the display.
+HWY_INLINE Pixels in_gamut_primaries(const Recolour& how, const Pixels& rec709)
+{
+    return how.wide ? converted(kToP3, rec709) : rec709;
+}
+
 /// Colours of more than this share of the greatest saturation that the gamut allows become less saturated. Chosen by
 /// eye.
 constexpr float kFullSaturation = 0.85f;
@@ -117,35 +137,36 @@ public:
     /// At `share` of the way to the colour.
     HWY_INLINE Pixels at(Vector share) const
     {
-        Pixels p = from_oklab({ m_grey + share * (m_lab.l - m_grey), share * m_lab.a, share * m_lab.b });
-        const Vector y = weighted(m_how.weights.data(), p.r, p.g, p.b);
-        scale(m_y / hn::Max(y, set(1e-30f)), p);
+        Pixels p = of_any_luminance(share);
+        scale(m_y / hn::Max(luminance_of(p), set(1e-30f)), p);
         return p;
     }
 
+    /// Positive outside the display's gamut, negative inside, continuous between.
+    HWY_INLINE Vector outside(Vector share) const
+    {
+        // What at() returns, times a number that is positive where any colour is inside: no division.
+        const Pixels p = of_any_luminance(share), primaries = in_gamut_primaries(m_how, p);
+        const Vector least = hn::Min(hn::Min(primaries.r, primaries.g), primaries.b);
+        const Vector most = hn::Max(hn::Max(primaries.r, primaries.g), primaries.b);
+        return hn::Max(most * m_y - luminance_of(p), set(0.0f) - least);
+    }
+
 private:
+    HWY_INLINE Pixels of_any_luminance(Vector share) const
+    {
+        return from_oklab({ m_grey + share * (m_lab.l - m_grey), share * m_lab.a, share * m_lab.b });
+    }
+    HWY_INLINE Vector luminance_of(const Pixels& p) const { return weighted(m_how.weights.data(), p.r, p.g, p.b); }
+
     const Recolour& m_how;
     Vector m_y, m_grey;
     Lab m_lab;
 };
 
-// Between linear Rec. 709 and Display P3, which have one white.
-constexpr float kToP3[3][3] = { { 0.8224619688f, 0.1775380312f, 0.0f },
-                                { 0.0331941989f, 0.9668058011f, 0.0f },
-                                { 0.0170826307f, 0.0723974407f, 0.9105199286f } };
-constexpr float kFromP3[3][3] = { { 1.2249401763f, -0.2249401763f, 0.0f },
-                                  { -0.0420569547f, 1.0420569547f, 0.0f },
-                                  { -0.0196375546f, -0.0786360456f, 1.0982736001f } };
-
-HWY_INLINE Pixels converted(const float (&matrix)[3][3], const Pixels& p)
-{
-    return { weighted(matrix[0], p.r, p.g, p.b), weighted(matrix[1], p.r, p.g, p.b),
-             weighted(matrix[2], p.r, p.g, p.b) };
-}
-
 HWY_INLINE Mask outside(const Recolour& how, const Pixels& rec709)
 {
-    const Pixels p = how.wide ? converted(kToP3, rec709) : rec709;
+    const Pixels p = in_gamut_primaries(how, rec709);
     const Vector least = hn::Min(hn::Min(p.r, p.g), p.b), most = hn::Max(hn::Max(p.r, p.g), p.b);
     return hn::Or(least<set(0.0f), most> set(1.0f));
 }
@@ -155,18 +176,23 @@ HWY_INLINE Mask outside(const Recolour& how, const Pixels& rec709)
 HWY_NOINLINE void draw_into_gamut(const Recolour& how, Vector y, Mask near, Pixels& p)
 {
     const HueLine line(how, y, p);
-    // The share at which the line leaves the gamut, if that is before 1 / kFullSaturation.
-    constexpr int kHalvings = 10;  // to a thousandth of the way, which is not seen
+    // The share at which the line leaves the gamut, if that is before 1 / kFullSaturation: halvings, then a straight line
+    // between the last two. Median error 4e-6, of one in a hundred lines more than 1e-3.
+    constexpr int kHalvings = 7;
     Vector in = set(0.0f), out = set(1.0f / kFullSaturation);
-    const Mask leaves = hn::And(near, outside(how, line.at(out)));
+    Vector at_in = line.outside(in), at_out = line.outside(out);
+    const Mask leaves = hn::And(near, at_out > set(0.0f));
     if (hn::AllFalse(Lanes(), leaves))
         return;
     for (int i = 0; i < kHalvings; ++i) {
-        const Vector middle = set(0.5f) * (in + out);
-        const Mask is_out = outside(how, line.at(middle));
+        const Vector middle = set(0.5f) * (in + out), at_middle = line.outside(middle);
+        const Mask is_out = at_middle > set(0.0f);
         out = hn::IfThenElse(is_out, middle, out);
+        at_out = hn::IfThenElse(is_out, at_middle, at_out);
         in = hn::IfThenElse(is_out, in, middle);
+        at_in = hn::IfThenElse(is_out, at_in, at_middle);
     }
+    in = in + (out - in) * hn::Max(at_in / (at_in - at_out), set(0.0f));
     const Vector full = set(kFullSaturation), rest = set(1.0f - kFullSaturation), one = set(1.0f);
     const Vector too_much = (one / hn::Max(in, set(1e-6f)) - full) / rest;
     const Vector share = in * (full + rest * (too_much / (one + too_much)));
