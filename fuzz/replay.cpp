@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs a fuzz target over files, without libFuzzer, and holds it to a budget of time and memory in proportion to each
-// file. Usage: fuzz_<target>_replay FILE|FOLDER...
+// file, or over mutations of them for some seconds. Usage: fuzz_<target>_replay [--seconds N] FILE|FOLDER...
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -11,6 +12,8 @@
 #include <vector>
 
 #include <sys/resource.h>
+
+#include "blind.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
@@ -37,12 +40,17 @@ Spent spent()
     return { seconds(usage.ru_utime) + seconds(usage.ru_stime), double(usage.ru_maxrss) / 1024.0 };
 }
 
-bool replay(const std::filesystem::path& path)
+std::vector<std::uint8_t> bytes_of(const std::filesystem::path& path)
 {
     std::ifstream in(path, std::ios::binary);
-    const std::vector<char> bytes { std::istreambuf_iterator<char>(in), {} };
+    return { std::istreambuf_iterator<char>(in), {} };
+}
+
+bool replay(const std::filesystem::path& path)
+{
+    const std::vector<std::uint8_t> bytes = bytes_of(path);
     const Spent before = spent();
-    LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+    LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
     const Spent after = spent();
     // A kilobyte takes at most 64 MB and 1 s; more bytes may take 1000 times their size and 0.01 s per kilobyte.
     const double kilobytes = double(bytes.size()) / 1024.0;
@@ -53,24 +61,42 @@ bool replay(const std::filesystem::path& path)
     return fine;
 }
 
-}  // namespace
-
-int main(int argc, char** argv)
+/// All files that are named, and those in the folders that are.
+std::vector<std::filesystem::path> files_of(int count, char** names)
 {
     std::vector<std::filesystem::path> files;
-    for (int i = 1; i < argc; ++i)
-        if (std::filesystem::is_directory(argv[i]))
-            for (const auto& entry : std::filesystem::recursive_directory_iterator(argv[i])) {
+    for (int i = 0; i < count; ++i)
+        if (std::filesystem::is_directory(names[i]))
+            for (const auto& entry : std::filesystem::recursive_directory_iterator(names[i])) {
                 if (entry.is_regular_file())
                     files.push_back(entry.path());
             }
         else
-            files.emplace_back(argv[i]);
+            files.emplace_back(names[i]);
     std::sort(files.begin(), files.end());
-    bool fine = !files.empty();
+    return files;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    const int seconds = argc > 2 && std::string(argv[1]) == "--seconds" ? std::atoi(argv[2]) : 0;
+    const int first = seconds > 0 ? 3 : 1;
+    const std::vector<std::filesystem::path> files = files_of(argc - first, argv + first);
+    if (files.empty()) {
+        std::fprintf(stderr, "no files to replay\n");
+        return 1;
+    }
+    if (seconds > 0) {
+        std::vector<std::vector<std::uint8_t>> inputs;
+        for (const auto& file : files)
+            inputs.push_back(bytes_of(file));
+        std::printf("%zu executions\n", mutate_blindly(inputs, seconds));
+        return 0;
+    }
+    bool fine = true;
     for (const auto& file : files)
         fine &= replay(file);
-    if (files.empty())
-        std::fprintf(stderr, "no files to replay\n");
     return fine ? 0 : 1;
 }
