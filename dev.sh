@@ -244,7 +244,7 @@ fuzz_quickly() { # target
     fi
 }
 
-# What fits into continuous integration, 20 seconds for each target: those of the engine instrumented, and its tests in the
+# 20 seconds for each target: those of the engine instrumented, and its tests in the
 # same build; the others, whose libraries take minutes to instrument, blindly in the release build.
 run_fuzz_quick() {
     local failed=0

@@ -276,7 +276,7 @@ bool Panels::filter(Workbench& bench, std::size_t index)
 }
 
 /// A slider from the base mesh to all pixels. It sets the number of vertices of the filter `level`, which becomes the
-/// first filter if there is none yet.
+/// last filter if there is none yet.
 void Panels::level_slider(Workbench& bench)
 {
     const DocumentState document = bench.studio.document().state();
@@ -305,10 +305,11 @@ void Panels::level_slider(Workbench& bench)
             bench.stack.items.erase(found);
         return;
     }
-    if (found == bench.stack.items.end())
-        bench.stack.items.push_back({ level, {}, true });  // last, so that nothing follows that must be done again
-    StackItem& item = found == bench.stack.items.end() ? bench.stack.items.back() : *found;
-    set_value(item, *option, format("{:.0f}", vertices));
+    const std::string value = format("{:.0f}", vertices);
+    if (found != bench.stack.items.end())
+        return set_value(*found, *option, value);
+    bench.stack.items.push_back({ level, {}, true });  // last, so that nothing follows that must be done again
+    set_value(bench.stack.items.back(), *option, value);
 }
 
 void Panels::look(Workbench& bench)
