@@ -55,7 +55,8 @@ TEST(Brush, CoarserMasksCoverTheSameShare)
 
 TEST(Brush, RoundIsTheSameFromAllSides)
 {
-    const Brush::Mask mask = Brush::named("round").mask(1000.0f, 0);
+    const Brush brush = Brush::named("round");
+    const Brush::Mask mask = brush.mask(1000.0f, 0);
     for (int y = 0; y < mask.rows; ++y)
         for (int x = 0; x < mask.columns; ++x) {
             const auto alpha = [&](int column, int row) {
