@@ -284,6 +284,8 @@ void Panels::level_slider(Workbench& bench)
         return;
     std::string error;
     const pimg::Filter* level = pimg::find_filter("level", error);
+    if (level == nullptr)
+        return;
     const auto is_level = [&](const StackItem& item) {
         return item.filter == level && item.on;
     };
@@ -293,7 +295,7 @@ void Panels::level_slider(Workbench& bench)
     const auto infos = level->options();
     const auto option =
         std::find_if(infos.begin(), infos.end(), [](const OptionInfo& i) { return i.key == "vertices"; });
-    if (level == nullptr || option == infos.end())
+    if (option == infos.end())
         return;
     if (found != bench.stack.items.end() && is_given(found->texts, *option))
         vertices = std::stod(value_of(found->texts, *option));
