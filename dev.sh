@@ -244,8 +244,8 @@ fuzz_quickly() { # target
     fi
 }
 
-# 20 seconds for each target: those of the engine instrumented, and its tests in the
-# same build; the others, whose libraries take minutes to instrument, blindly in the release build.
+# 20 seconds for each target: those of the engine instrumented, and its tests in the same build; the others, whose
+# libraries take minutes to instrument, blindly in the release build.
 run_fuzz_quick() {
     local failed=0
     build_fuzz "$quick_tree" -DPIMG_CODEC_ONLY=ON "${quick_targets[@]/#/fuzz_}" engine_tests

@@ -43,6 +43,10 @@ Spent spent()
 std::vector<std::uint8_t> bytes_of(const std::filesystem::path& path)
 {
     std::ifstream in(path, std::ios::binary);
+    if (!in) {
+        std::fprintf(stderr, "%s: cannot be read; expected a file or a folder of inputs\n", path.c_str());
+        std::exit(2);
+    }
     return { std::istreambuf_iterator<char>(in), {} };
 }
 
@@ -81,14 +85,19 @@ std::vector<std::filesystem::path> files_of(int count, char** names)
 
 int main(int argc, char** argv)
 {
-    const int seconds = argc > 2 && std::string(argv[1]) == "--seconds" ? std::atoi(argv[2]) : 0;
-    const int first = seconds > 0 ? 3 : 1;
+    const bool is_timed = argc > 1 && std::string(argv[1]) == "--seconds";
+    const int seconds = is_timed && argc > 2 ? std::atoi(argv[2]) : 0;
+    if (is_timed && seconds <= 0) {
+        std::fprintf(stderr, "--seconds: expected a whole number above 0\n");
+        return 2;
+    }
+    const int first = is_timed ? 3 : 1;
     const std::vector<std::filesystem::path> files = files_of(argc - first, argv + first);
     if (files.empty()) {
         std::fprintf(stderr, "no files to replay\n");
         return 1;
     }
-    if (seconds > 0) {
+    if (is_timed) {
         std::vector<std::vector<std::uint8_t>> inputs;
         for (const auto& file : files)
             inputs.push_back(bytes_of(file));
