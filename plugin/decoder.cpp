@@ -45,6 +45,9 @@ Status open_decoder(OIIO::Filesystem::IOProxy* proxy, Decoder& decoder)
     DecodeLimits limits;
     limits.channels = std::uint32_t(std::clamp(OIIO::get_int_attribute("limits:channels", 1024), 1, 1024));
     const int megabytes = OIIO::get_int_attribute("limits:imagesize_MB", 32768);
+    const int side = OIIO::get_int_attribute("limits:resolution", 0);  // from OpenImageIO 3.2 on
+    if (side > 0)
+        limits.side = std::min(limits.side, std::uint32_t(side));
     if (megabytes > 0)
         limits.sample_bytes = std::uint64_t(megabytes) << 20;
     return decoder.open(std::make_shared<ProxySource>(proxy), limits);

@@ -62,6 +62,8 @@ public:
     }
     bool get_thumbnail(OIIO::ImageBuf& thumbnail, int subimage) override;
 
+    using ImageInput::read_native_scanlines;
+    using ImageInput::read_native_tile;
     bool read_native_scanline(int subimage, int miplevel, int y, int z, void* data) override;
     bool read_native_scanlines(int subimage, int miplevel, int ybegin, int yend, int z, void* data) override;
     bool read_native_scanlines(int subimage, int miplevel, int ybegin, int yend, int z, int chbegin, int chend,

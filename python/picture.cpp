@@ -3,6 +3,8 @@
 
 #include <pimg/detail/format.h>
 
+#include <algorithm>
+#include <initializer_list>
 #include <utility>
 #include <vector>
 
@@ -71,6 +73,44 @@ Picture from_array(const py::array& array)
              packed };
 }
 
+bool has_methods(const py::object& object, std::initializer_list<const char*> names)
+{
+    return std::all_of(names.begin(), names.end(), [&](const char* name) { return py::hasattr(object, name); });
+}
+
+/// Attributes that say what the samples mean.
+void copy_meaning(const py::object& from, ImageSpec& spec)
+{
+    const py::object space = from.attr("getattribute")("oiio:ColorSpace");
+    if (py::isinstance<py::str>(space))
+        spec.attribute("oiio:ColorSpace", text(space));
+    const py::object chromaticities = from.attr("getattribute")("chromaticities");
+    if (py::isinstance<py::sequence>(chromaticities) && py::len(chromaticities) == 8) {
+        const auto values = chromaticities.cast<std::vector<float>>();
+        spec.attribute("chromaticities", TypeDesc(TypeDesc::FLOAT, 8), values.data());
+    }
+}
+
+/// An ImageBuf of a module whose classes this one cannot share, such as OpenImageIO 3.2's, made with nanobind: its samples, names
+/// of channels and what they mean. Results of it are arrays.
+Picture from_foreign(const py::object& object)
+{
+    const py::object from = object.attr("spec")();
+    const py::object samples = object.attr("get_pixels")(from.attr("format"));
+    if (!py::isinstance<py::array>(samples))
+        throw py::value_error("an ImageBuf without pixels");
+    const Picture picture = from_array(samples.cast<py::array>());
+    ImageSpec spec = picture.pixels->spec();
+    const auto names = from.attr("channelnames").cast<std::vector<std::string>>();
+    if (int(names.size()) == spec.nchannels)
+        spec.channelnames = names;
+    spec.alpha_channel = from.attr("alpha_channel").cast<int>();
+    copy_meaning(from, spec);
+    return { std::make_shared<const ImageBuf>(spec, const_cast<void*>(picture.pixels->localpixels())),
+             { true, false },
+             picture.owner };
+}
+
 }  // namespace
 
 Picture to_picture(py::object object)
@@ -84,9 +124,8 @@ Picture to_picture(py::object object)
         return { std::shared_ptr<const ImageBuf>(pixels, [](const ImageBuf*) {}), {}, std::move(object) };
     }
     const std::string type = text(py::type::of(object).attr("__name__"));
-    if (type == "ImageBuf")
-        throw py::type_error(format("an ImageBuf of another OpenImageIO than the {} pimg was built with: pass an array",
-                                    OIIO_VERSION_STRING));
+    if (type == "ImageBuf" && has_methods(object, { "spec", "get_pixels" }))
+        return from_foreign(object);
     throw py::type_error(format("expected an OpenImageIO.ImageBuf, a NumPy array or a ProgressiveImage, not {}", type));
 }
 
@@ -121,6 +160,12 @@ OIIO::ROI to_roi(const py::object& object)
         } catch (const py::cast_error&) {
             // Not whole numbers of 32 bits: the message below says so, which that of the cast does not.
         }
+    }
+    if (has_methods(object, { "xbegin", "xend", "ybegin", "yend" })) {
+        const auto number = [&](const char* name) {
+            return object.attr(name).cast<int>();
+        };
+        return { number("xbegin"), number("xend"), number("ybegin"), number("yend") };
     }
     throw py::type_error("roi: expected an OpenImageIO.ROI or (xbegin, xend, ybegin, yend), whole numbers of 32 bits");
 }

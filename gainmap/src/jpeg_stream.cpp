@@ -65,12 +65,6 @@ void take_profile(std::string_view stream, std::string& rest, std::string& profi
     rest += stream.substr(at);
 }
 
-/// The first line of what OpenImageIO says, which may be many.
-std::string first_line(const std::string& message)
-{
-    return one_line(message.substr(0, message.find('\n')));
-}
-
 /// The next marker in coded data that is neither a stuffed byte nor a restart.
 std::size_t end_of_scan(std::string_view bytes, std::size_t at)
 {

@@ -138,6 +138,11 @@ class Counts(InTree):
                          core__src__mesh__x_cpp="float f(float x) { return std::sqrt(x) + elementary::exp(x); }")
         self.assert_finds(counts.check(tree), "elementary.h")
 
+    def test_calls_that_versions_spell_differently(self):
+        tree = self.tree(tools__x_cpp="bool f() { return OIIO::ImageBufAlgo::resize(a, b); }",
+                         plugin__x_cpp="bool f() { return pimg::resize_picture(a, b); }")
+        self.assert_finds(counts.check(tree), "oiio_compat.h")
+
 
 class Mirror(InTree):
     def test_a_source_has_a_test_or_is_listed(self):

@@ -33,7 +33,7 @@ def arguments_of(command):
             kept += [word, next(words)]
         elif word in ("-o", "-c", "-include", "-MF", "-MT", "-Xclang"):
             next(words)
-        elif re.match(r"-(I|D|W(?!no-maybe|invalid-pch))|-pthread", word):
+        elif re.match(r"-(I|D|W(?!no-maybe|invalid-pch))|-pthread|-fvisibility", word):
             kept.append(word)
     return kept
 

@@ -184,6 +184,30 @@ class Filters(unittest.TestCase):
             self.assertLess(len(message), 1600)
             self.assertTrue(message.isprintable(), message)
 
+    def test_buffers_of_modules_that_share_no_classes(self):
+        """OpenImageIO 3.2's are made with nanobind, and reached by their methods."""
+        foreign = type("ImageBuf", (), {"__init__": lambda self, buffer: setattr(self, "buffer", buffer),
+                                        "spec": lambda self: self.buffer.spec(),
+                                        "get_pixels": lambda self, format: self.buffer.get_pixels(format)})
+        roi = type("ROI", (), {"xbegin": 10, "xend": 30, "ybegin": 5, "yend": 25})()
+        for dtype in TYPES:
+            own = buffer_of(picture(dtype))
+            self.assertTrue(np.array_equal(pimg.hdr_compress(foreign(own)), pixels_of(pimg.hdr_compress(own))), dtype)
+            part = pimg.hdr_compress(foreign(own), roi=roi)
+            self.assertTrue(np.array_equal(part, pimg.hdr_compress(foreign(own))[5:25, 10:30]), dtype)
+        own = buffer_of(scene(channels=4))
+        plain = pimg.hdr_compress(foreign(own))
+        own.specmod().alpha_channel = -1
+        own.specmod().channelnames = ("R", "G", "B", "mask")
+        self.assertFalse(np.array_equal(pimg.hdr_compress(foreign(own)), plain))
+        own = buffer_of(picture("float32"))
+        own.specmod().attribute("oiio:ColorSpace", "ACEScg")
+        self.assertFalse(np.array_equal(pimg.hdr_compress(foreign(own)), pimg.hdr_compress(scene())))
+        with self.assertRaisesRegex(ValueError, "pixels"):
+            pimg.build(foreign(oiio.ImageBuf("no such file.exr")))
+        with self.assertRaisesRegex(TypeError, "ROI"):
+            pimg.build(scene()).level(roi=type("ROI", (), {})())
+
     def test_buffers_keep_windows_and_metadata(self):
         spec = oiio.ImageSpec(61, 47, 3, "half")
         spec.x, spec.y, spec.full_width, spec.full_height = 5, -7, 100, 90

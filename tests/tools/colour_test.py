@@ -40,6 +40,10 @@ colorspaces:
         - !<ExponentWithLinearTransform> {gamma: [2.4, 2.4, 2.4, 1], offset: [0.055, 0.055, 0.055, 0]}
         - !<MatrixTransform> {matrix: [0.4396, 0.3830, 0.1774, 0, 0.0898, 0.8134, 0.0968, 0, 0.0175, 0.1115, 0.8709, 0, 0, 0, 0, 1]}
   - !<ColorSpace>
+    name: Linear Rec.709 (sRGB)
+    aliases: [lin_rec709]
+    to_scene_reference: !<MatrixTransform> {matrix: [0.4396, 0.3830, 0.1774, 0, 0.0898, 0.8134, 0.0968, 0, 0.0175, 0.1115, 0.8709, 0, 0, 0, 0, 1]}
+  - !<ColorSpace>
     name: Film
     from_scene_reference: !<GroupTransform>
       children:
@@ -173,6 +177,27 @@ class Spaces(ColourTest):
         self.ok("--ocio", self.aces, "rgb.png", "-d", "float", "--dup", "--hdr-compress:fit=0:s0=1:coherence=0:beta=0",
                 "-o", "working.exr", "--pop", "--colorconvert", "srgb_tx", "ACEScg", "-o", "expected.exr")
         self.assertTrue(np.allclose(read("working.exr"), read("expected.exr"), rtol=2e-3, atol=1e-4))
+
+    def test_aliases_and_names_of_other_versions(self):
+        """Rec. 709 is Rec. 709 by every name, also where scene_linear is ACEScg; so is sRGB."""
+        pictures.write("linear.exr", np.full((4, 4, 3), (0.8, 0.3, 0.1), np.float32), "float")
+        for name in ("Linear Rec.709 (sRGB)", "lin_rec709", "lin_rec709_scene"):
+            self.ok("--ocio", self.aces, "linear.exr", "--incolorspace", name, "--tocolorspace", "ACES2065-1", "-o", "by.exr")
+            self.assertTrue(np.allclose(read("by.exr")[0, 0], (0.484, 0.326, 0.135), atol=1e-3), name)
+        self.ok("linear.exr", "--colorconvert", "lin_rec709_scene", "srgb_rec709_scene", "-o", "new.exr",
+                "linear.exr", "--colorconvert", "linear", "sRGB", "-o", "old.exr")
+        self.assert_same("new.exr", "old.exr")
+        self.assertFalse(np.allclose(read("new.exr"), read("linear.exr"), atol=0.05))
+
+    def test_displays_from_any_name_of_a_space(self):
+        pictures.write("rgb.png", pictures.scene(40, 30), "uint8", {"oiio:ColorSpace": "sRGB"})
+        show = ("Monitor", "Film", "-d", "uint8", "-o")
+        self.ok("--ocio", self.aces, "rgb.png", "--ociodisplay", *show, "own.tif")
+        for name in ("sRGB - Texture", "srgb_tx", "sRGB", "srgb_rec709_scene"):
+            self.ok("--ocio", self.aces, "rgb.png", f"--ociodisplay:from={name}", *show, "named.tif")
+            self.assert_codes("own.tif", "named.tif")
+        self.ok("--ocio", self.aces, "rgb.png", "--ociodisplay:from=ACEScg", *show, "other.tif")
+        self.assertGreater(np.abs(codes("own.tif") - codes("other.tif")).max(), 20)
 
     def test_configuration_that_is_wrong(self):
         with open("broken.ocio", "w", encoding="utf-8") as config:

@@ -91,9 +91,10 @@ bool convert_colours(Session& session, const OIIO::ColorProcessorHandle& process
             pimg::set_error(dst, converted.geterror());
             return false;
         }
-        for (std::size_t i = 0; i < colours.size(); ++i) {
-            const ImageBuf one = OIIO::ImageBufAlgo::channels(converted, 1, { int(i) });
-            if (!OIIO::ImageBufAlgo::paste(dst, dst.xbegin(), dst.ybegin(), dst.zbegin(), colours[i], one))
+        // Not alpha, which OpenColorIO 2.5 moves by a rounding error.
+        for (int i = 0; i < colour.count(); ++i) {
+            const ImageBuf one = OIIO::ImageBufAlgo::channels(converted, 1, { i });
+            if (!OIIO::ImageBufAlgo::paste(dst, dst.xbegin(), dst.ybegin(), dst.zbegin(), colour.channel(i), one))
                 return false;
         }
         return true;
@@ -159,17 +160,18 @@ bool tocolorspace(Session& session, const Words& words, const ConversionOptions&
 bool check_ociodisplay(const Words& words, const DisplayOptions& options, std::string& error)
 {
     std::string display = words[0], view = words[1];
-    return find_display(display, view, error) && (options.from.empty() || is_known_space(options.from, error));
+    return find_display(display, view, options.from, error)
+        && (options.from.empty() || is_known_space(options.from, error));
 }
 
 bool ociodisplay(Session& session, const Words& words, const DisplayOptions& options)
 {
     std::string display = words[0], view = words[1], error;
-    std::string from = options.from;
+    std::string from = options.from.empty() ? "" : own_name_of_space(options.from);
     if (from.empty() && !take_space(session, from))
         return false;
     OIIO::ColorProcessorHandle processor;
-    if (find_display(display, view, error))
+    if (find_display(display, view, from, error))
         processor = display_transform(display, view, from, options, error);
     return processor ? convert_colours(session, processor, display_space(display, view), options.unpremult)
                      : session.fail(error);

@@ -23,6 +23,12 @@ bool contains(const std::vector<std::string>& names, const std::string& name)
                        [&](const std::string& other) { return Strutil::iequals(name, other); });
 }
 
+bool has_configuration()
+{
+    const char* name = std::getenv("OCIO");
+    return name != nullptr && *name != '\0';
+}
+
 }  // namespace
 
 bool use_colour_config(const std::string& filename, std::string& error)
@@ -74,19 +80,31 @@ bool holds_linear_light(const OIIO::ImageSpec& stored)
 
 std::string scene_linear_space()
 {
+    if (!has_configuration())
+        return pimg::linear_rec709_without_config(colour_config());
     const char* name = colour_config().getColorSpaceNameByRole("scene_linear");
     return name != nullptr ? name : "linear";
 }
 
 std::string convertible_space(const pimg::Colour& colour)
 {
-    return colour.config_name().empty() ? scene_linear_space() : colour.config_name();
+    const std::string& name = colour.config_name();
+    return name.empty() || (name == "linear" && !has_configuration()) ? scene_linear_space() : name;
+}
+
+std::string own_name_of_space(const std::string& name)
+{
+    pimg::Colour colour;
+    std::string error;
+    const OIIO::ImageSpec any(1, 1, 3, OIIO::TypeFloat);
+    const bool has_name = pimg::Colour::resolve(any, name, "", colour, error) && !colour.config_name().empty();
+    return has_name ? convertible_space(colour) : name;
 }
 
 bool is_known_space(const std::string& name, std::string& error)
 {
     const std::vector<std::string> names = colour_config().getColorSpaceNames();
-    if (contains(names, name) || contains(colour_config().getRoles(), name))
+    if (contains(names, own_name_of_space(name)) || contains(colour_config().getRoles(), name))
         return true;
     error = pimg::format("no colour space \"{}\": expected one of {}", name, Strutil::join(names, ", "));
     return false;
@@ -97,15 +115,18 @@ OIIO::ColorProcessorHandle conversion(const std::string& from, const std::string
 {
     OIIO::ColorProcessorHandle processor = colour_config().createColorProcessor(from, to, options.key, options.value);
     if (!processor)
-        error = pimg::format("no conversion from \"{}\" to \"{}\": expected colour spaces of {}: {}", from, to,
-                             colour_config().getNumDisplays() ? "the configuration $OCIO"
-                                                              : "OpenImageIO ($OCIO names no configuration)",
-                             Strutil::join(colour_config().getColorSpaceNames(), ", "));
+        processor = colour_config().createColorProcessor(own_name_of_space(from), own_name_of_space(to), options.key,
+                                                         options.value);
+    if (!processor)
+        error =
+            pimg::format("no conversion from \"{}\" to \"{}\": expected colour spaces of {}: {}", from, to,
+                         has_configuration() ? "the configuration $OCIO" : "OpenImageIO ($OCIO names no configuration)",
+                         Strutil::join(colour_config().getColorSpaceNames(), ", "));
     colour_config().geterror();  // replaced by a better message
     return processor;
 }
 
-bool find_display(std::string& display, std::string& view, std::string& error)
+bool find_display(std::string& display, std::string& view, const std::string& from, std::string& error)
 {
     const OIIO::ColorConfig& config = colour_config();
     const std::vector<std::string> displays = config.getDisplayNames();
@@ -121,7 +142,7 @@ bool find_display(std::string& display, std::string& view, std::string& error)
     }
     const std::vector<std::string> views = config.getViewNames(display);
     if (view == "default")
-        view = config.getDefaultViewName(display);
+        view = pimg::default_view(config, display, from);
     if (contains(views, view))
         return true;
     error = pimg::format("no view \"{}\": expected one of {}", view, Strutil::join(views, ", "));
@@ -134,8 +155,11 @@ OIIO::ColorProcessorHandle display_transform(const std::string& display, const s
     OIIO::ColorConfig& config = colour_config();
     OIIO::ColorProcessorHandle processor =
         pimg::display_processor(config, { display, view, from, options.looks, options.key, options.value });
-    if (!processor)
-        error = config.geterror();
+    if (processor)
+        return processor;
+    error = pimg::first_line(config.geterror());
+    if (error.empty())  // OpenImageIO 2.4 and 3.1 may say nothing
+        error = pimg::format("no transform from \"{}\" to the view \"{}\" of the display \"{}\"", from, view, display);
     return processor;
 }
 

@@ -42,6 +42,10 @@ bool holds_linear_light(const OIIO::ImageSpec& stored);
 std::string convertible_space(const pimg::Colour& colour);
 std::string scene_linear_space();
 
+/// What conversions call a space that the user calls by an alias of the configuration, or as another version of OpenImageIO
+/// does. The name itself if they know no other.
+std::string own_name_of_space(const std::string& name);
+
 /// False, with a line saying what there is, for names of spaces the configuration has not.
 bool is_known_space(const std::string& name, std::string& error);
 
@@ -49,8 +53,9 @@ bool is_known_space(const std::string& name, std::string& error);
 OIIO::ColorProcessorHandle conversion(const std::string& from, const std::string& to, const ConversionOptions& options,
                                       std::string& error);
 
-/// Puts the configuration's names in place of "default". False, with a line saying what there is, for names it has not.
-bool find_display(std::string& display, std::string& view, std::string& error);
+/// Puts the configuration's names in place of "default", for a picture in the space `from`. False, with a line saying what
+/// there is, for names it has not.
+bool find_display(std::string& display, std::string& view, const std::string& from, std::string& error);
 
 /// The transform for a display found so; null, with a line saying why, if there is none.
 OIIO::ColorProcessorHandle display_transform(const std::string& display, const std::string& view,

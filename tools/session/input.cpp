@@ -37,14 +37,14 @@ std::unique_ptr<OIIO::ImageInput> open_input(const std::string& filename, const 
     if (input || (is_stream(filename) && (input = OIIO::ImageInput::create(filename)))) {
         if (input->open(path, spec, config))
             return input;
-        error = input->geterror();
+        error = pimg::first_line(input->geterror());
         if (!is_stream(filename))
             return nullptr;
     }
     OIIO::geterror();
     input = OIIO::ImageInput::open(path, &config);
     if (!input && error.empty())
-        error = OIIO::geterror();
+        error = pimg::first_line(OIIO::geterror());
     OIIO::geterror();
     return input;
 }

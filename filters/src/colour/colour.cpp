@@ -9,6 +9,7 @@
 
 #include <OpenColorIO/OpenColorIO.h>
 
+#include <pimg/detail/oiio_compat.h>
 #include <pimg/detail/rec709.h>
 #include <pimg/display.h>
 
@@ -54,9 +55,12 @@ const OCIO::ConstConfigRcPtr& raw_config()
     return config;
 }
 
+/// Without the approximations of logarithms and powers by which versions of OpenColorIO differ: one in 70000 of a stop makes
+/// another hierarchy.
 OCIO::ConstCPUProcessorRcPtr cpu(const OCIO::ConstProcessorRcPtr& processor)
 {
-    return processor->getDefaultCPUProcessor();
+    return processor->getOptimizedCPUProcessor(
+        OCIO::OptimizationFlags(OCIO::OPTIMIZATION_DEFAULT & ~OCIO::OPTIMIZATION_FAST_LOG_EXP_POW));
 }
 
 /// Applies a processor to each of `count` numbers, three at a time as if they were pixels, since OpenColorIO has no
@@ -320,7 +324,10 @@ struct ColourFinder {
         if (!find_named_space(lower(name), space))
             return false;
         if (config == nullptr && space.primaries == kRec709)  // as OpenImageIO calls these
-            colour.m_config_name = names_srgb(lower(name)) ? "sRGB" : lower(name) == "rec709" ? "Rec709" : "";
+            colour.m_config_name = names_srgb(lower(name)) ? "sRGB"
+                : lower(name) == "rec709"                  ? "Rec709"
+                : space.linear()                           ? "linear"
+                                                           : "";
         if (!space.linear())
             return use_encoded(curve(space.gamma, space.offset), space.primaries);
         colour.m_linear_name = name;
@@ -455,7 +462,9 @@ std::string space_by_file_rule(const std::string& filename)
 {
     try {
         const OCIO::ConstConfigRcPtr config = current_colour_config();
-        if (config == nullptr || config->filepathOnlyMatchesDefaultRule(filename.c_str()))
+        // Those that come with OpenColorIO say of every .exr that it is ACES2065-1. OpenImageIO takes no notice either.
+        if (config == nullptr || name_of_colour_config().rfind("ocio://", 0) == 0
+            || config->filepathOnlyMatchesDefaultRule(filename.c_str()))
             return {};
         const OCIO::ConstColorSpaceRcPtr space =
             config->getColorSpace(config->getColorSpaceFromFilepath(filename.c_str()));
@@ -471,7 +480,7 @@ bool check_colour_config(std::string& error)
         current_colour_config();
         return true;
     } catch (const OCIO::Exception& exception) {
-        error = name_of_colour_config() + ": " + exception.what();
+        error = source_of_colour_config() + ": " + exception.what();
         return false;
     }
 }
@@ -481,6 +490,7 @@ bool Colour::resolve(const OIIO::ImageSpec& spec, const std::string& space, cons
 {
     try {
         Colour found;
+        found.m_linear_name = kDeclaredLinear;
         ColourFinder finder { found, current_colour_config() };
         if (!finder.find_channels(spec, layer, error))
             return false;

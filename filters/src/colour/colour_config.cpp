@@ -33,8 +33,7 @@ OCIO_NAMESPACE::ConstConfigRcPtr current_colour_config()
 {
     static std::mutex mutex;
     static std::map<std::string, OCIO_NAMESPACE::ConstConfigRcPtr> kept;
-    const char* environment = std::getenv("OCIO");
-    const std::string name = !config_of_scope.empty() ? config_of_scope : environment != nullptr ? environment : "";
+    const std::string name = name_of_colour_config();
     // Without this OpenColorIO would print that colour management is disabled.
     if (name.empty())
         return nullptr;
@@ -49,6 +48,12 @@ OCIO_NAMESPACE::ConstConfigRcPtr current_colour_config()
 }
 
 std::string name_of_colour_config()
+{
+    const char* environment = std::getenv("OCIO");
+    return !config_of_scope.empty() ? config_of_scope : environment != nullptr ? environment : "";
+}
+
+std::string source_of_colour_config()
 {
     return config_of_scope.empty() ? "$OCIO" : config_of_scope;
 }

@@ -15,8 +15,11 @@ inline namespace PIMG_ABI {
 /// Throws what OpenColorIO throws if it cannot be read.
 OCIO_NAMESPACE::ConstConfigRcPtr current_colour_config();
 
-/// Who named it, for messages: "$OCIO", or the name itself.
+/// Its name, that of a file or "ocio://..." for one that comes with OpenColorIO; empty if there is none.
 std::string name_of_colour_config();
+
+/// Who named it, for messages: "$OCIO", or the name itself.
+std::string source_of_colour_config();
 
 }  // namespace PIMG_ABI
 }  // namespace pimg

@@ -19,6 +19,13 @@ TEST(OneLine, HoldsNoControlCharacters)
     EXPECT_EQ(one_line(std::string("a\0b", 3)), "a?b");
 }
 
+TEST(FirstLine, LeavesTheRestAway)
+{
+    EXPECT_EQ(first_line("no such file\n  perhaps you meant\n  another"), "no such file");
+    EXPECT_EQ(first_line("one line"), "one line");
+    EXPECT_EQ(first_line(""), "");
+}
+
 TEST(OneLine, IsOfBoundedLengthAndKeepsBothEnds)
 {
     const std::string word = one_line("cannot read \"" + std::string(5000, 'x') + ".exr\": no such file");

@@ -35,5 +35,11 @@ inline void set_error(const OIIO::ImageBuf& picture, const std::string& message)
 /// middle left out of it and of every word over 300, line breaks as spaces, other control characters as question marks.
 PIMG_EXPORT_DETAIL std::string one_line(const std::string& message);
 
+/// The first line of what OpenImageIO says, which may be several: 3.1 explains what a missing file might be.
+inline std::string first_line(const std::string& message)
+{
+    return one_line(message.substr(0, message.find('\n')));
+}
+
 }  // namespace PIMG_ABI
 }  // namespace pimg

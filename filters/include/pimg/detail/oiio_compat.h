@@ -8,6 +8,7 @@
 #include <OpenImageIO/color.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imagecache.h>
+#include <OpenImageIO/Imath.h>  // before texture.h, which otherwise declares a vector of its own
 #include <OpenImageIO/texture.h>
 
 #include <pimg/abi.h>
@@ -86,6 +87,43 @@ inline OIIO::ColorProcessorHandle display_processor(const OIIO::ColorConfig& con
                                          View(t.context_key), View(t.context_value));
 #endif
 }
+
+/// The view of a display that is meant when none is named. Since 3.1 it may depend on the space the picture is in.
+inline std::string default_view(const OIIO::ColorConfig& config, const std::string& display, const std::string& from)
+{
+#if OIIO_VERSION >= OIIO_MAKE_VERSION(3, 1, 0)
+    const char* name = config.getDefaultViewName(display, from);
+#else
+    (void)from;
+    const char* name = config.getDefaultViewName(display);
+#endif
+    return name == nullptr ? "" : name;
+}
+
+/// The name of linear light in Rec. 709, the space that filters take pictures to be in when $OCIO names no configuration.
+/// OpenImageIO 2.5 and newer then fall back to one that OpenColorIO brings, whose role scene_linear may be another space.
+inline std::string linear_rec709_without_config(const OIIO::ColorConfig& config)
+{
+#if OIIO_VERSION >= OIIO_MAKE_VERSION(2, 5, 0)
+    for (const char* alias : { "lin_rec709_scene", "lin_rec709", "Linear Rec.709 (sRGB)" }) {
+        const std::string name(config.resolve(alias));
+        if (config.getColorSpaceIndex(name) >= 0)
+            return name;
+    }
+#else
+    (void)config;
+#endif
+    return "linear";
+}
+
+/// What linear light in Rec. 709 is called in metadata.
+#if OIIO_VERSION >= OIIO_MAKE_VERSION(3, 1, 0)
+constexpr const char* kDeclaredLinear = "lin_rec709_scene";
+#elif OIIO_VERSION >= OIIO_MAKE_VERSION(3, 0, 0)
+constexpr const char* kDeclaredLinear = "lin_rec709";
+#else
+constexpr const char* kDeclaredLinear = "Linear";
+#endif
 
 }  // namespace PIMG_ABI
 }  // namespace pimg
