@@ -7,9 +7,11 @@ import subprocess
 import numpy as np
 
 import pictures
+import warm
 
 HOST = os.environ["OFX_TEST_HOST"]
 BUNDLE = os.environ["PIMG_OFX"]
+WARM = warm.Program(HOST, os.environ["OFX_TEST_HOST_WARM"], os.environ["PIMG_OFX_LIBRARY"])
 
 
 def scene(width, height, alpha=True):
@@ -24,6 +26,10 @@ def write(name, pixels):
     pictures.write(name, pixels, "float", names=["R", "G", "B", "A"][: pixels.shape[2]])
 
 
+def run(*arguments):
+    return WARM.run(BUNDLE, *arguments, timeout=200)
+
+
 class HostTest(pictures.ToolTest):
     def setUp(self):
         super().setUp()
@@ -31,8 +37,9 @@ class HostTest(pictures.ToolTest):
 
     def host(self, *arguments, status=0, environment=None):
         """What the host says on standard output and error. Violations of the interface make it fail."""
-        done = subprocess.run([HOST, BUNDLE, *map(str, arguments)], capture_output=True, text=True, timeout=200,
-                              env={**os.environ, **(environment or {})})
+        done = run(*arguments) if environment is None else subprocess.run(
+            [HOST, BUNDLE, *map(str, arguments)], capture_output=True, text=True, timeout=200, check=False,
+            env={**os.environ, **environment})
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         return done.stdout + done.stderr
 

@@ -9,11 +9,16 @@ import unittest
 import numpy as np
 import OpenImageIO as oiio
 
+import warm
+
 TOOL = os.path.abspath(os.environ["PIMGTOOL"])
 
 # Nothing of the user's may change a result.
 for name in ("OCIO", "OCIO_OPTIMIZATION_FLAGS", "OPENIMAGEIO_OPTIONS"):
     os.environ.pop(name, None)
+
+# pimgtool with its libraries loaded, where the build has it.
+WARM = warm.Program(TOOL, os.environ["PIMGTOOL_WARM"]) if os.environ.get("PIMGTOOL_WARM") else None
 
 
 def scene(width, height, channels=3):
@@ -101,6 +106,8 @@ class ToolTest(unittest.TestCase):
         os.chdir(scratch.name)
 
     def run_tool(self, *arguments, env=None):
+        if WARM and not env:
+            return WARM.run(*arguments, timeout=60)
         return subprocess.run(
             [TOOL, *map(str, arguments)],
             capture_output=True,
