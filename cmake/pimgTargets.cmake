@@ -36,11 +36,24 @@ function(pimg_target_defaults target)
     endif()
 endfunction()
 
-# pimg_precompile(<target>): parses OpenImageIO's headers, three seconds a file, once for the whole target.
+# pimg_precompile(<target> [<header>...]): parses OpenImageIO's headers, three seconds a file, and these, once for the whole
+# target. Without further headers, once for all static libraries and modules, which are compiled alike.
 function(pimg_precompile target)
+    get_target_property(type ${target} TYPE)
+    get_property(first GLOBAL PROPERTY PIMG_PRECOMPILED)
+    if(type STREQUAL "MODULE_LIBRARY")
+        set_target_properties(${target} PROPERTIES DEFINE_SYMBOL "")  # a macro of one target is not in the others' headers
+    endif()
+    if(first AND NOT ARGN AND type MATCHES "^(STATIC|MODULE)_LIBRARY$")
+        target_precompile_headers(${target} REUSE_FROM ${first})
+        return()
+    endif()
     target_precompile_headers(${target} PRIVATE
         <functional> <string> <vector>
-        <OpenImageIO/filesystem.h> <OpenImageIO/imagebuf.h> <OpenImageIO/imagebufalgo.h> <OpenImageIO/strutil.h>)
+        <OpenImageIO/filesystem.h> <OpenImageIO/imagebuf.h> <OpenImageIO/imagebufalgo.h> <OpenImageIO/strutil.h> ${ARGN})
+    if(NOT ARGN AND type STREQUAL "STATIC_LIBRARY")
+        set_property(GLOBAL PROPERTY PIMG_PRECOMPILED ${target})
+    endif()
 endfunction()
 
 # pimg_install_manual(<file> <program>): the manual of a program, compressed if it goes into a package.
