@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Damaged files: every truncation of six small ones, every single bit flipped, random damage with the checksums off.
+// Damaged files: every truncation of small ones, every single bit flipped, random damage with the checksums off.
 // Each must end in an error or a picture, and a hierarchy that is read must be a whole one of that picture; a whole file
 // must give both. Meant to be run with AddressSanitizer and UndefinedBehaviorSanitizer, and within a time limit.
-// Usage: codec_damage [rounds of random damage, default 2000 [files of which every bit is flipped, default 1, at most 6]]
+// Usage: codec_damage [rounds of random damage, default 2000 [files of which every bit is flipped, default 1
+//                     [settings each of the six pictures is written with, default 1, at most 4]]]
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -94,21 +95,26 @@ int main(int argc, char** argv)
 {
     const long rounds = argc > 1 ? std::atol(argv[1]) : 2000;
     const std::size_t flips = argc > 2 ? std::size_t(std::atol(argv[2])) : 1;
+    const std::size_t settings = argc > 3 ? std::min(std::size_t(std::atol(argv[3])), std::size_t(4)) : 1;
     long hierarchies = 0;
     std::vector<std::vector<std::uint8_t>> files;
     std::vector<Picture> pictures = conformance_pictures();
     pictures.push_back(pictures[2]);  // once more, with a hierarchy of chosen pixels
     const Hierarchy chosen = hierarchy_of_chosen(pictures[2]);
+    const std::size_t kinds = pictures.size();
+    for (std::size_t i = kinds; i < settings * kinds; ++i)
+        pictures.push_back(pictures[i - kinds]);
     for (std::size_t i = 0; i < pictures.size(); ++i) {
+        const std::size_t setting = i / kinds;
         EncodeOptions options;
-        options.profile = i % 2 == 0 ? Profile::full : Profile::compact;
-        if (i == 5) {
+        options.profile = (i % kinds + setting) % 2 == 0 ? Profile::full : Profile::compact;
+        if (i % kinds == 5 && setting % 2 == 0) {
             options.profile = Profile::full;
             options.hierarchy = &chosen;
         }
         hierarchies += options.profile == Profile::full;
         options.vertices = 0.1f;
-        options.tile = 32;
+        options.tile = setting < 2 ? 32 : 16;
         files.emplace_back();
         if (const Status status = encode(pictures[i].desc, pictures[i].planes(), options, files.back()); !status) {
             std::fprintf(stderr, "%s\n", status.error().c_str());

@@ -122,10 +122,13 @@ TEST(PoolLoop, TakesUpNoForeignTask)
     }
 }
 
-/// The caches each of these fills: log bands and plans, channel bands, smoothing data, the tree of regions, envelopes.
+constexpr int kFiltered = 6;
+
+/// The caches each of these fills: log bands and plans, channel bands, smoothing data, the tree of regions, what painters
+/// plan by, envelopes.
 ImageBuf filtered(const ProgressiveImage& image, int which, int threads)
 {
-    switch (which % 5) {
+    switch (which % kFiltered) {
     case 0:
         return ImageBufAlgo::hdr_compress(image, {}, {}, threads);
     case 1: {
@@ -140,6 +143,8 @@ ImageBuf filtered(const ProgressiveImage& image, int which, int threads)
     }
     case 3:
         return ImageBufAlgo::segment(image, {}, {}, threads);
+    case 4:
+        return ImageBufAlgo::paint(image, {}, {}, threads);
     default: {
         HdrCompressOptions options;
         options.coherence = 0.5f;
@@ -157,7 +162,7 @@ TEST(ProgressiveImage, FilterNeedsNoneOfTheTasksInTheQueue)
     const PoolOf pool(2);
     OIIO::thread_pool* const tasks = OIIO::default_thread_pool();
     const ImageBuf scene = hdr_scene(120, 90);
-    for (int which = 0; which < 5; ++which) {
+    for (int which = 0; which < kFiltered; ++which) {
         ProgressiveImage image;
         ASSERT_TRUE(image.build(scene, {}, 1)) << image.error();
         std::promise<void> promise;
@@ -199,7 +204,7 @@ TEST(ProgressiveImage, FiltersInTasksAndThreadsDoNotWaitForEachOther)
     {
         ProgressiveImage image;
         ASSERT_TRUE(image.build(scene)) << image.error();
-        for (int which = 0; which < 5; ++which)
+        for (int which = 0; which < kFiltered; ++which)
             expected.push_back(pixels(filtered(image, which, 1)));
     }
     for (int repeat = 0; repeat < 10; ++repeat) {
@@ -207,7 +212,7 @@ TEST(ProgressiveImage, FiltersInTasksAndThreadsDoNotWaitForEachOther)
         ASSERT_TRUE(image.build(scene)) << image.error();
         std::atomic<int> wrong { 0 };
         const auto check = [&](int which, int threads) {
-            if (!identical(pixels(filtered(image, which, threads)), expected[std::size_t(which % 5)]))
+            if (!identical(pixels(filtered(image, which, threads)), expected[std::size_t(which % kFiltered)]))
                 ++wrong;
         };
         std::vector<std::thread> threads;
@@ -262,7 +267,7 @@ TEST(ProgressiveImage, BuildsAndFiltersStop)
     const Watchdog watchdog("builds and filters that are stopped", 100);
     const ImageBuf scene = hdr_scene(120, 90);
     int most = 0;
-    for (int which = 0; which < 5; ++which) {
+    for (int which = 0; which < kFiltered; ++which) {
         ProgressiveImage whole;
         ASSERT_TRUE(whole.build(scene)) << whole.error();
         const std::vector<float> expected = pixels(filtered(whole, which, 2));
