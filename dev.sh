@@ -37,8 +37,8 @@ usage: ./dev.sh COMMAND
           COMMIT     is where this branch left main, or the one before the last on main itself
   fuzz    setup, build the fuzz targets with clang, run each for its share of a time: fuzz MINUTES [TARGET...]. It starts
           from fuzz/corpus and what earlier runs found; build/fuzz/crashes receives inputs that are findings.
-          --quick  20 s for each: those of the engine instrumented, and the tests of core, codec and painting in the
-                   same build; the others blindly in the release build
+          --quick  20 s for each: those of the codec instrumented, and the tests of core and codec in the same build;
+                   the others blindly in the release build
   sanitize  setup, then the tests of core, codec and painting and the replay of all kept inputs with AddressSanitizer,
           UndefinedBehaviorSanitizer and the assertions of libstdc++ in build/sanitize; --threads, --memory: with
           ThreadSanitizer, MemorySanitizer instead
@@ -234,7 +234,7 @@ for_each() { # function, words...
     return "$failed"
 }
 
-readonly quick_tree=build/fuzz-quick quick_targets=(decoder roundtrip stroke_file)
+readonly quick_tree=build/fuzz-quick quick_targets=(decoder roundtrip)
 
 fuzz_quickly() { # target
     if [[ " ${quick_targets[*]} " == *" $1 "* ]]; then
@@ -244,17 +244,17 @@ fuzz_quickly() { # target
     fi
 }
 
-# 20 seconds for each target: those of the engine instrumented, and its tests in the same build; the others, whose
-# libraries take minutes to instrument, blindly in the release build.
+# 20 seconds for each target: those of the codec instrumented, and the tests of core and codec in the same build; the
+# others, whose libraries take minutes to instrument, blindly in the release build.
 run_fuzz_quick() {
     local failed=0
-    build_fuzz "$quick_tree" -DPIMG_CODEC_ONLY=ON "${quick_targets[@]/#/fuzz_}" engine_tests
+    build_fuzz "$quick_tree" -DPIMG_CODEC_ONLY=ON "${quick_targets[@]/#/fuzz_}" core_and_codec_tests
     configure -DPIMG_BUILD_BENCH=OFF -DPIMG_WERROR=ON
     compile fuzz_replays
     say "20 s for each target"
     for_each fuzz_quickly "${fuzz_targets[@]}" || failed=1
-    say "tests of core, codec and painting with AddressSanitizer and UndefinedBehaviorSanitizer"
-    ctest --test-dir "$quick_tree" --output-on-failure -j "$jobs" -R '^(core|codec|painting)\.' || failed=1
+    say "tests of core and codec with AddressSanitizer and UndefinedBehaviorSanitizer"
+    ctest --test-dir "$quick_tree" --output-on-failure -j "$jobs" -R '^(core|codec)\.' || failed=1
     return "$failed"
 }
 

@@ -194,14 +194,14 @@ TEST(Codec, TheHeaderSaysHowManyVerticesTheMeshLayerHas)
 
 TEST(Codec, EveryPrefixIsNoWorseThanShorterOnes)
 {
-    const Picture p = make_picture(400, 300, { SampleType::uint8 });
+    const Picture p = make_picture(200, 150, { SampleType::uint8 });
     EncodeOptions options;
     options.vertices = 0.05f;
-    options.tile = 128;
+    options.tile = 64;
     const auto file = encoded(p, options);
     double last = 1e30;
     int pictures = 0;
-    for (std::size_t n = 0; n <= file.size(); n += 97) {
+    for (std::size_t n = 0; n <= file.size(); n += 53) {
         std::vector<std::uint8_t> pixels;
         if (!decode(file.data(), n, pixels))
             continue;
