@@ -23,7 +23,7 @@ using pimg::OptionInfo;
 
 std::string label_of(const OptionInfo& option)
 {
-    return option.unit.empty() ? option.key : format("{} ({})", option.key, option.unit);
+    return option.unit.empty() || option.unit == option.key ? option.key : format("{} ({})", option.key, option.unit);
 }
 
 void tooltip(const OptionInfo& option)
