@@ -22,7 +22,7 @@ const std::vector<Option<pimgview::LookOptions>>& option_table<pimgview::LookOpt
         { &T::y, { "y", 0, 1, "", "", "share of the picture's height that is in the middle" } },
         { &T::show, { "show", 0, 0, "", "result|source|split|difference", "which picture is shown" } },
         { &T::split, { "split", 0, 1, "", "", "share of the view left of the split line, where the source is" } },
-        { &T::boost, { "boost", 1, 64, "", "", "factor on differences, so that small ones are seen" } },
+        { &T::boost, { "boost", 1, 64, "", "", "factor on differences, so that small ones are seen; grey is none" } },
         { &T::exposure, { "exposure", -16, 16, "stops", "", "brightness of what is shown" } },
         { &T::gamma, { "gamma", 0.2, 5, "", "", "above 1 lifts the shadows of what is shown" } },
         { &T::display, { "display", 0, 0, "", "", "a display of $OCIO; empty: sRGB, as pimgtool writes files" } },

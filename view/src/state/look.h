@@ -14,7 +14,7 @@ struct LookOptions {
     float x = 0.5f, y = 0.5f;        ///< the place in the middle of the view, as shares of width and height
     std::string show = "result";     ///< result, source, split or difference
     float split = 0.5f;              ///< where the line between source and result is, as a share of the view's width
-    float boost = 4.0f;              ///< factor on differences
+    float boost = 1.0f;              ///< factor on differences, which are shown around grey
     float exposure = 0.0f;           ///< in stops
     float gamma = 1.0f;              ///< exponent 1 / gamma on what is displayed
     std::string display, transform;  ///< of the configuration $OCIO; empty: sRGB, as pimgtool writes files
