@@ -102,6 +102,30 @@ press Page_Down Page_Up ctrl+z
 shows " --detail-enhance --level:fraction=0.5"
 close 10
 
+# Files are dropped on a window that is open: one with letters that URIs must encode, and several of which some cannot be read.
+dropped() { # pattern: the file in the title, sooner or later
+    local title=""
+    for _ in {1..100}; do
+        title=$(xdotool getwindowname "$window")
+        [[ $title =~ ^"pimgtool "$1" -o out.png - pimgview"$ ]] && return
+        sleep 0.1
+    done
+    echo "expected \"$1\", found \"$title\"" >&2
+    exit 1
+}
+cp photo.png "a % b.png"
+head -c 500 scene.exr >cut.exr
+begin
+"$PYTHON" "$(dirname "$0")/drop.py" "$window" "a % b.png"
+dropped "'.*/a % b.png'"
+"$PYTHON" "$(dirname "$0")/drop.py" "$window" nowhere.exr cut.exr scene.exr
+dropped ".*/nowhere.exr"
+press Page_Down
+dropped ".*/cut.exr"
+press Page_Down
+dropped ".*/scene.exr"
+close 10
+
 # Closing waits for nothing, and the smallest window there is does no harm.
 begin large.exr --script "--hdr-compress"
 for size in "1 1" "300 20" "800 900"; do
