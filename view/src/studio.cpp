@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <thread>
 
@@ -318,7 +319,9 @@ void Studio::save(const FilterStack& stack, const std::string& filename)
         }
         {
             const std::lock_guard<std::mutex> lock(m_mutex);
-            m_save = { false, !saved, saved ? format("saved {}: {}", filename, summary) : error };
+            std::error_code unknown;  // then the path is empty, and the name says what can be said
+            const std::string path = std::filesystem::absolute(filename, unknown).string();
+            m_save = { false, !saved, saved ? format("saved {}: {}", unknown ? filename : path, summary) : error };
         }
         m_changed();
     });
@@ -328,6 +331,13 @@ SaveState Studio::saving() const
 {
     const std::lock_guard<std::mutex> lock(m_mutex);
     return m_save;
+}
+
+void Studio::forget_saved()
+{
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    if (!m_save.busy)
+        m_save = {};
 }
 
 bool Studio::stop()

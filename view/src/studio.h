@@ -78,6 +78,7 @@ public:
 
     void save(const FilterStack& stack, const std::string& filename);
     SaveState saving() const;
+    void forget_saved();  ///< what was said about the last file; not while one is being saved
 
     /// Bytes of the document, of what filters remember and of the pictures that are shown, when last counted.
     std::size_t memory() const { return m_document_bytes + m_renderer_bytes[0] + m_renderer_bytes[1]; }

@@ -5,6 +5,7 @@
 #include <cfloat>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <utility>
 
 #include <imgui.h>
@@ -52,6 +53,17 @@ std::string samples_text(const PixelValue& value)
     return text;
 }
 
+/// A row of a list. All of its name is shown, where the label of a Selectable would end at ##.
+bool name_row(int row, const std::string& name, bool chosen)
+{
+    ImGui::PushID(row);
+    const bool clicked = ImGui::Selectable("##row", chosen);
+    ImGui::SameLine(0.0f, 0.0f);
+    ImGui::TextUnformatted(name.c_str());
+    ImGui::PopID();
+    return clicked;
+}
+
 /// A list of names to choose from, and that the program finds one itself, which is the empty name. Whether it changed.
 bool chooser(const char* title, const std::vector<std::string>& names, std::string& chosen)
 {
@@ -60,9 +72,9 @@ bool chooser(const char* title, const std::vector<std::string>& names, std::stri
         return false;
     if (ImGui::Selectable("found", chosen.empty()))
         chosen.clear();
-    for (const std::string& name : names)
-        if (ImGui::Selectable(name.c_str(), name == chosen))
-            chosen = name;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (name_row(int(i), names[i], names[i] == chosen))
+            chosen = names[i];
     ImGui::EndCombo();
     return chosen != before;
 }
@@ -111,20 +123,18 @@ void Panels::files(Workbench& bench)
     if (!section("Files", true))
         return;
     if (bench.files.size() > 1) {
-        int frame = bench.index;
-        if (ImGui::SliderInt("file or frame", &frame, 0, int(bench.files.size()) - 1))
-            bench.go_to(frame);
+        int frame = bench.index + 1;
+        const int frames = int(bench.files.size());
+        if (ImGui::SliderInt("file or frame", &frame, 1, frames, format("%d of {}", frames).c_str()))
+            bench.go_to(frame - 1);
         ImGui::Checkbox("play", &bench.playing);
     }
     const float line = ImGui::GetTextLineHeightWithSpacing();
     const float rows = float(std::min<std::size_t>(bench.files.size(), 5));
     if (ImGui::BeginListBox("##files", { -1, line * std::max(1.0f, rows) + 6 })) {
-        for (int i = 0; i < int(bench.files.size()); ++i) {
-            ImGui::PushID(i);
-            if (ImGui::Selectable(OIIO::Filesystem::filename(bench.files[std::size_t(i)]).c_str(), i == bench.index))
+        for (int i = 0; i < int(bench.files.size()); ++i)
+            if (name_row(i, OIIO::Filesystem::filename(bench.files[std::size_t(i)]), i == bench.index))
                 bench.go_to(i);
-            ImGui::PopID();
-        }
         ImGui::EndListBox();
     }
     parts_and_layers(bench);
@@ -150,13 +160,11 @@ void Panels::parts_and_layers(Workbench& bench)
 
 void Panels::browser(Workbench& bench)
 {
-    if (m_folder.empty()) {
-        m_folder = bench.settings["folder"].empty() ? "." : bench.settings["folder"];
-        m_entries = list_folder(m_folder);
-    }
+    if (m_folder.empty())
+        go_to_folder(bench.settings["folder"].empty() ? "." : bench.settings["folder"]);
     if (ImGui::InputText("folder", &m_folder, ImGuiInputTextFlags_EnterReturnsTrue)) {
         if (OIIO::Filesystem::is_directory(m_folder))
-            m_entries = list_folder(m_folder);
+            go_to_folder(m_folder);
         else
             bench.open({ m_folder });
     }
@@ -165,18 +173,26 @@ void Panels::browser(Workbench& bench)
     std::string next;
     if (ImGui::Selectable("../"))
         next = m_folder + "/..";
-    for (const std::string& entry : m_entries)
-        if (ImGui::Selectable(entry.c_str())) {
-            if (entry.back() == '/')
-                next = m_folder + "/" + entry.substr(0, entry.size() - 1);
+    for (std::size_t i = 0; i < m_entries.size(); ++i)
+        if (name_row(int(i), m_entries[i], false)) {
+            const std::string path = (std::filesystem::path(m_folder) / m_entries[i]).string();
+            if (path.back() == '/')
+                next = path;
             else
-                bench.open({ m_folder + "/" + entry });
+                bench.open({ path });
         }
     ImGui::EndListBox();
-    if (!next.empty()) {
-        m_folder = next;
-        m_entries = list_folder(m_folder);
-    }
+    if (!next.empty())
+        go_to_folder(next);
+}
+
+/// Shows a folder by its full name, without the .. that led there.
+void Panels::go_to_folder(const std::string& folder)
+{
+    std::error_code unknown;
+    const std::filesystem::path path = std::filesystem::canonical(folder, unknown);
+    m_folder = unknown ? folder : path.string();
+    m_entries = list_folder(m_folder);
 }
 
 void Panels::filters(Workbench& bench)
@@ -412,9 +428,10 @@ void Panels::presets(Workbench& bench)
     const auto last = bench.settings.find("last");
     if (last != bench.settings.end() && ImGui::Selectable("(as last time)"))
         bench.apply(last->second);
-    for (const std::string& name : preset_names())
-        if (ImGui::Selectable(name.c_str()))
-            bench.apply(read_preset(name));
+    const std::vector<std::string> names = preset_names();
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (name_row(int(i), names[i], false))
+            bench.apply(read_preset(names[i]));
     ImGui::InputTextWithHint("##name", "name", &m_preset);
     ImGui::SameLine();
     if (ImGui::Button("Keep as a preset"))
@@ -433,11 +450,14 @@ void Panels::save(Workbench& bench)
         return;
     if (asked)
         ImGui::SetKeyboardFocusHere();
-    const bool entered = ImGui::InputTextWithHint("##file", "out.png, out.exr, out.pimg, out.svg ...", &bench.save_name,
-                                                  ImGuiInputTextFlags_EnterReturnsTrue);
+    const bool entered =
+        ImGui::InputTextWithHint("##file", "out.png, out.exr, out.pimg, out.svg ...", &bench.save_name,
+                                 ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     ImGui::SameLine();
-    if ((ImGui::Button("Save") || entered) && !bench.save_name.empty() && !bench.studio.saving().busy)
-        bench.studio.save(bench.stack, bench.save_name);
+    const bool replaces = !bench.save_name.empty() && OIIO::Filesystem::exists(bench.save_name);
+    const bool clicked = ImGui::Button(replaces ? "Replace" : "Save");
+    if ((clicked || entered) && !bench.save_name.empty() && !bench.studio.saving().busy)
+        bench.save(clicked);
     ImGui::TextWrapped("The extension chooses the format: of a picture, .pimg, or .svg and .json for strokes.");
 }
 
@@ -449,8 +469,39 @@ void Panels::status(Workbench& bench, const ViewInfo& info, float scale)
     ImGui::Begin("Status", nullptr,
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove
                      | ImGuiWindowFlags_NoScrollbar);
+    command_line(bench);
     const DocumentState document = bench.studio.document().state();
-    std::string line = bench.line();
+    const SaveState saving = bench.studio.saving();
+    if (!document.activity.empty()) {
+        ImGui::ProgressBar(document.progress, { 160 * scale, 0 }, document.activity.c_str());
+        ImGui::SameLine();
+    }
+    // First what is always there, so that nothing longer pushes it out of the window.
+    ImGui::TextUnformatted(format("{}{}  ", document.has_picture() ? format("{:.0f} %  ", 100.0 * info.zoom) : "",
+                                  megabytes(bench.studio.memory() + info.texture_memory))
+                               .c_str());
+    ImGui::SameLine();
+    std::string problem = !document.error.empty() ? document.error : bench.studio.error();
+    if (problem.empty() && saving.failed)
+        problem = saving.text;
+    if (!problem.empty()) {
+        ImGui::TextColored({ 1.0f, 0.35f, 0.3f, 1.0f }, "%s", problem.c_str());
+        ImGui::SameLine();
+    }
+    std::string text = bench.message + (bench.message.empty() ? "" : "   ");
+    text += saving.failed || saving.text.empty() ? "" : saving.text + "   ";
+    if (info.has_pixel && problem.empty())
+        text += format("({}, {})  source {} = {}   result {} = {}, codes {} {} {}", info.x, info.y,
+                       samples_text(info.source), stops(info.source.luminance), samples_text(info.result),
+                       stops(info.result.luminance), info.result.codes[0], info.result.codes[1], info.result.codes[2]);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::End();
+}
+
+/// The line that makes what is seen, with a button that copies it as the key does.
+void Panels::command_line(Workbench& bench)
+{
+    const std::string line = bench.line();
     if (bench.copied || ImGui::SmallButton("Copy")) {
         ImGui::SetClipboardText(line.c_str());
         bench.message = "copied the command line";
@@ -458,28 +509,6 @@ void Panels::status(Workbench& bench, const ViewInfo& info, float scale)
     }
     ImGui::SameLine();
     ImGui::TextUnformatted(line.c_str());
-    std::string problem = !document.error.empty() ? document.error : bench.studio.error();
-    const SaveState saving = bench.studio.saving();
-    if (problem.empty() && saving.failed)
-        problem = saving.text;
-    if (!document.activity.empty()) {
-        ImGui::ProgressBar(document.progress, { 160 * scale, 0 }, document.activity.c_str());
-        ImGui::SameLine();
-    }
-    if (!problem.empty())
-        ImGui::TextColored({ 1.0f, 0.35f, 0.3f, 1.0f }, "%s", problem.c_str());
-    else {
-        std::string text = !bench.message.empty() ? bench.message + "   " : "";
-        text += saving.text.empty() ? "" : saving.text + "   ";
-        if (info.has_pixel)
-            text +=
-                format("({}, {})  source {} = {}   result {} = {}, codes {} {} {}   ", info.x, info.y,
-                       samples_text(info.source), stops(info.source.luminance), samples_text(info.result),
-                       stops(info.result.luminance), info.result.codes[0], info.result.codes[1], info.result.codes[2]);
-        text += format("{:.0f} %   {}", 100.0 * info.zoom, megabytes(bench.studio.memory() + info.texture_memory));
-        ImGui::TextUnformatted(text.c_str());
-    }
-    ImGui::End();
 }
 
 void Panels::sheet(Workbench& bench)

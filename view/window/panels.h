@@ -31,6 +31,7 @@ private:
     void files(Workbench& bench);
     void parts_and_layers(Workbench& bench);
     void browser(Workbench& bench);
+    void go_to_folder(const std::string& folder);
     void filters(Workbench& bench);
     bool filter(Workbench& bench, std::size_t index);
     void drag_filter(Workbench& bench, std::size_t index);
@@ -43,6 +44,7 @@ private:
     void presets(Workbench& bench);
     void save(Workbench& bench);
     void status(Workbench& bench, const ViewInfo& info, float scale);
+    static void command_line(Workbench& bench);
     void sheet(Workbench& bench);
 
     std::string m_folder, m_preset, m_pasted;

@@ -50,10 +50,26 @@ void PictureView::look_up_pixel(const Workbench& bench, double at_x, double at_y
         && pixel_at(shown->result, m_info.x, m_info.y, m_info.result);
 }
 
+void PictureView::draw_words(const std::string& words, double pixel_scale) const
+{
+    constexpr float kShare = 0.8f;  // of the width that the words may take
+    const float width = float(m_area.width / pixel_scale), height = float(m_area.height / pixel_scale);
+    const ImVec2 size = ImGui::CalcTextSize(words.c_str(), nullptr, false, kShare * width);
+    const ImVec2 corner { float(m_area.x / pixel_scale) + (width - size.x) / 2,
+                          float(m_area.y / pixel_scale) + (height - size.y) / 2 };
+    ImGui::GetBackgroundDrawList()->AddText(nullptr, 0.0f, corner, ImGui::GetColorU32(ImGuiCol_Text), words.c_str(),
+                                            nullptr, kShare * width);
+}
+
 void PictureView::draw_overlays(const Workbench& bench, double pixel_scale)
 {
     const std::shared_ptr<const Shown> shown = bench.studio.shown();
-    if (!shown || shown->document != bench.studio.document().state().version)
+    const DocumentState document = bench.studio.document().state();
+    if (bench.index < 0)
+        draw_words("Drop pictures here, or open them with Ctrl+O. F1 lists the keys.", pixel_scale);
+    else if (!document.has_picture())
+        draw_words(document.error, pixel_scale);
+    if (!shown || shown->document != document.version)
         return;
     ImDrawList* draw = ImGui::GetBackgroundDrawList();
     const double left = m_area.left(bench.look), top = m_area.top(bench.look), zoom = m_area.zoom(bench.look);

@@ -52,6 +52,8 @@ private:
 
     bool may_draw(const DocumentState& document, const Shown& shown) const;
     bool paint(Workbench& bench, const Shown& shown, int buffer_width, int buffer_height);
+    /// Words in the middle of where the picture would be.
+    void draw_words(const std::string& words, double pixel_scale) const;
     void look_up_pixel(const Workbench& bench, double at_x, double at_y);
 
     Viewport m_area;

@@ -55,8 +55,10 @@ void Workbench::open(const std::vector<std::string>& given)
         stack.part.clear();  // the parts of another file have other names
     index = -1;
     go_to(0);
-    if (!files.empty())
-        settings["folder"] = std::filesystem::absolute(files[0]).parent_path().string();
+    std::error_code unknown;  // the present folder may have vanished
+    const std::filesystem::path first = std::filesystem::absolute(files[0], unknown);
+    if (!unknown)
+        settings["folder"] = first.parent_path().string();
 }
 
 void Workbench::go_to(int next)
@@ -68,6 +70,7 @@ void Workbench::go_to(int next)
         return;
     index = next;
     message.clear();
+    studio.forget_saved();
     open_document();
 }
 
@@ -154,6 +157,8 @@ void Workbench::act_on_look(Action action)
 
 void Workbench::act(Action action)
 {
+    message.clear();  // what was said about the key before
+    studio.forget_saved();
     const std::pair<Action, bool*> switches[] = { { Action::open, &opening },
                                                   { Action::save, &saving },
                                                   { Action::sheet, &sheet } };
@@ -201,6 +206,23 @@ void Workbench::replace(const Script& script)
     save_name = script.output;
     if (!script.files.empty())
         open(script.files);
+}
+
+void Workbench::save(bool replace)
+{
+    std::error_code missing;  // then the names are of different files
+    message.clear();
+    studio.forget_saved();
+    if (index < 0)
+        message = "nothing to save: expected an open picture";
+    else if (std::filesystem::equivalent(save_name, files[std::size_t(index)], missing))
+        message = pimg::format("\"{}\" is the picture that is open: expected another name", save_name);
+    else if (!replace && m_written.count(save_name) == 0 && std::filesystem::exists(save_name, missing))
+        message = pimg::format("\"{}\" is there already: the button Replace writes over it", save_name);
+    else {
+        m_written.insert(save_name);
+        studio.save(stack, save_name);
+    }
 }
 
 void Workbench::save_preset(const std::string& name)

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,10 @@ public:
     /// Begins anew with what a script says.
     void replace(const Script& script);
 
+    /// Saves the result as `save_name`. What is open is never written over, and a file that this window has not written
+    /// only if `replace`; `message` says so.
+    void save(bool replace);
+
     void save_preset(const std::string& name);
     void remember() const;  ///< writes the settings
 
@@ -67,8 +72,9 @@ private:
     void act_on_look(Action action);
 
     History<Snapshot> m_history;
-    pimg::OptionTexts m_built;  ///< options of building the document has
-    std::string m_part;         ///< part of the file that the document has
+    pimg::OptionTexts m_built;        ///< options of building the document has
+    std::string m_part;               ///< part of the file that the document has
+    std::set<std::string> m_written;  ///< names that results were saved as
     std::shared_ptr<const Shown> m_last_played;
 };
 
