@@ -102,6 +102,8 @@ fails "cut.exr" cut.exr --screenshot shot.png
 fails "expected a filter whose strokes" --script "scene.exr --level -o none.svg" --screenshot shot.png
 fails "bata" scene.exr --script "--hdr-compress:bata=1"
 fails "unknown option" --purple
+fails "64 or more" scene.exr --tile 1
+fails "has the option" scene.exr --script "--hdr-compress" --measure bata
 fails "after the last one" scene.exr --screenshot a.png --script "--level"
 MESA_GL_VERSION_OVERRIDE=2.1 fails "no window with OpenGL 3.2" scene.exr --screenshot shot.png
 DISPLAY="" WAYLAND_DISPLAY="" fails "error: no display" scene.exr

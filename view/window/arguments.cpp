@@ -97,9 +97,9 @@ const std::vector<Word>& word_table()
           [](const S& text, A& a, S& error) {
               return take_number(text, 0, a.seed, error);
           } },
-        { "--tile", "N", "largest side of a texture; 0, the default: what the driver allows",
+        { "--tile", "N", "largest side of a texture, 64 or more; 0, the default: what the driver allows",
           [](const S& text, A& a, S& error) {
-              return take_number(text, 0, a.tile, error);
+              return text == "0" || take_number(text, 64, a.tile, error);  // smaller ones take minutes to draw
           } },
         { "--help", "", "prints this",
           [](const S&, A& a, S&) {
@@ -111,6 +111,16 @@ const std::vector<Word>& word_table()
           } },
     };
     return table;
+}
+
+/// Whether a filter of the script has an option of that name.
+bool has_option(const FilterStack& stack, const std::string& key)
+{
+    for (const StackItem& item : stack.items)
+        for (const pimg::OptionInfo& option : item.filter->options())
+            if (option.key == key)
+                return true;
+    return false;
 }
 
 /// Options of --view, one a line.
@@ -152,6 +162,10 @@ bool parse_arguments(const std::vector<std::string>& words, Arguments& arguments
     }
     if (!arguments.more.empty() && arguments.more.back().screenshot.empty()) {
         error = "--script: expected --screenshot after the last one";
+        return false;
+    }
+    if (!arguments.measured.empty() && !has_option(arguments.script.stack, arguments.measured)) {
+        error = format("--measure: expected a filter in --script that has the option \"{}\"", arguments.measured);
         return false;
     }
     arguments.files.insert(arguments.files.end(), arguments.script.files.begin(), arguments.script.files.end());
