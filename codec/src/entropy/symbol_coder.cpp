@@ -133,11 +133,10 @@ Bytes write_tables(const std::vector<Context>& contexts, const std::vector<std::
         while (tables[i][used - 1] == 0)
             --used;
         out.direct(used, 7);
-        std::uint32_t before = 0, sum = 0;
+        std::uint32_t before = 0;
         for (std::uint32_t t = 0; t + 1 < used; ++t) {
             model[bit_length(before)].write(out, tables[i][t]);
             before = tables[i][t];
-            sum += before;
         }
     }
     return out.finish();
