@@ -48,7 +48,7 @@ void walk(const TileChannel& t, Visit&& visit)
     const std::int32_t *const values = t.values, *const mesh = t.gouraud;
     const std::uint16_t* const guide = t.guide;
     std::uint16_t* const sizes = t.sizes;
-    const auto difference = [values, mesh](std::size_t at) {
+    const auto difference = [=](std::size_t at) {
         if constexpr (OverMesh)
             return std::int64_t(values[at]) - mesh[at];
         else
