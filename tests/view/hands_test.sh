@@ -53,16 +53,17 @@ drag() { # x y to_x to_y
         345 $((($2 + $4) / 2)) sleep 0.3 mousemove --window "$window" "$3" "$4" sleep 0.5 mouseup 1 sleep 0.3
 }
 press() { xdotool key --window "$window" "$@" sleep 0.1; }
-shows() { # pattern: the operations in the title, sooner or later
+titled() { # pattern: the file and the operations in the title, sooner or later
     local title=""
     for _ in {1..100}; do
         title=$(xdotool getwindowname "$window")
-        [[ $title =~ ^"pimgtool scene.exr"$1" -o out.png - pimgview"$ ]] && return
+        [[ $title =~ ^"pimgtool "$1" -o out.png - pimgview"$ ]] && return
         sleep 0.1
     done
     echo "expected \"$1\", found \"$title\"" >&2
     exit 1
 }
+shows() { titled "scene\.exr$1"; } # pattern: the operations
 
 # The picture is dragged and zoomed, everything is switched on and off, and nothing of that is in the stack.
 begin scene.exr --script "--hdr-compress:beta=20"
@@ -103,27 +104,17 @@ shows " --detail-enhance --level:fraction=0.5"
 close 10
 
 # Files are dropped on a window that is open: one with letters that URIs must encode, and several of which some cannot be read.
-dropped() { # pattern: the file in the title, sooner or later
-    local title=""
-    for _ in {1..100}; do
-        title=$(xdotool getwindowname "$window")
-        [[ $title =~ ^"pimgtool "$1" -o out.png - pimgview"$ ]] && return
-        sleep 0.1
-    done
-    echo "expected \"$1\", found \"$title\"" >&2
-    exit 1
-}
 cp photo.png "a % b.png"
 head -c 500 scene.exr >cut.exr
 begin
 "$PYTHON" "$(dirname "$0")/drop.py" "$window" "a % b.png"
-dropped "'.*/a % b.png'"
+titled "'.*/a % b.png'"
 "$PYTHON" "$(dirname "$0")/drop.py" "$window" nowhere.exr cut.exr scene.exr
-dropped ".*/nowhere.exr"
+titled ".*/nowhere.exr"
 press Page_Down
-dropped ".*/cut.exr"
+titled ".*/cut.exr"
 press Page_Down
-dropped ".*/scene.exr"
+titled ".*/scene.exr"
 close 10
 
 # Closing waits for nothing, and the smallest window there is does no harm.
