@@ -4,6 +4,7 @@
 import os
 import struct
 import unittest
+import zlib
 
 import numpy as np
 import OpenImageIO as oiio
@@ -75,7 +76,7 @@ class PrimariesTest(pictures.ToolTest):
         self.ok(*[word for name in PRIMARIES for word in (f"{name}.exr", *arguments, "-o", f"{name}.png")], **options)
         for name in PRIMARIES:
             self.assert_codes(f"{name}.png", "lin_rec709.png")
-            self.assertEqual(spec_of(f"{name}.png")["oiio:ColorSpace"], "sRGB")
+            self.assertIn(spec_of(f"{name}.png")["oiio:ColorSpace"], pictures.SRGB)
 
 
 class Chromaticities(PrimariesTest):
@@ -204,6 +205,46 @@ class Profiles(PrimariesTest):
                         self.assertIn("ICC profile", done.stderr)
                         mean = lambda f: codes(f).reshape(2, 48, 4, 32, 3)[:, 8:-8, :, 8:-8].mean((1, 3))
                         self.assertLessEqual(np.abs(mean("out.png") - mean("expected.png")).max(), 2)
+
+
+    def test_icc_profiles_of_png_files_outrank_their_gamma(self):
+        """A PNG file may have both chunks; its standard says which one counts."""
+        dim = patches() / 24
+        stored = np.clip(dim @ matrix(PRIMARIES["lin_rec709"], self.PROPHOTO).T, 0, 1) ** (1 / 1.8)
+        profile = np.frombuffer(icc_profile(self.PROPHOTO, 1.8), dtype=np.uint8)
+        self.write("meant.exr", dim, PRIMARIES["lin_rec709"])
+        self.ok("meant.exr", "--hdr-compress", "-d", "uint16", "-o", "expected.png")
+        spec = oiio.ImageSpec(128, 96, 3, "uint16")
+        spec.attribute("ICCProfile", oiio.TypeDesc(f"uint8[{len(profile)}]"), profile)
+        picture = oiio.ImageBuf(spec)
+        picture.set_pixels(picture.roi, np.ascontiguousarray(stored, dtype=np.float32))
+        self.assertTrue(picture.write("icc.png"))
+        with open("icc.png", "rb") as file:
+            data = file.read()
+        linear = (1.0,) if oiio.VERSION < 30000 else ()  # later ones do not say that it is from there
+        for gamma in (1.8, 2.2, *linear):
+            with self.subTest(gamma=gamma):
+                body = b"gAMA" + struct.pack(">I", round(100000 / gamma))
+                chunk = struct.pack(">I", 4) + body + struct.pack(">I", zlib.crc32(body))
+                header = 8 + 25  # the signature, and the chunk that comes first
+                with open("both.png", "wb") as file:
+                    file.write(data[:header] + chunk + self.without(data[header:], b"gAMA"))
+                self.assertAlmostEqual(spec_of("both.png").getattribute("oiio:Gamma"), gamma, 2)
+                done = self.run_tool("-v", "both.png", "--hdr-compress", "-o", "out.png")
+                self.assertIn("ICC profile", done.stderr)
+                mean = lambda f: codes(f).reshape(2, 48, 4, 32, 3)[:, 8:-8, :, 8:-8].mean((1, 3))
+                self.assertLessEqual(np.abs(mean("out.png") - mean("expected.png")).max(), 2)
+
+    @staticmethod
+    def without(chunks, name):
+        """The bytes of a PNG file after its header, without the chunks of that name."""
+        kept, at = b"", 0
+        while at < len(chunks):
+            end = at + 12 + struct.unpack(">I", chunks[at:at + 4])[0]
+            if chunks[at + 4:at + 8] != name:
+                kept += chunks[at:end]
+            at = end
+        return kept
 
 
 class Encoding(pictures.ToolTest):

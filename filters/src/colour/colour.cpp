@@ -374,11 +374,20 @@ struct ColourFinder {
         colour.m_converts = false;
     }
 
+    /// Whether the name of a space only repeats the gamma that a PNG file gives, which an ICC profile has precedence over.
+    static bool says_only_gamma(const OIIO::ImageSpec& spec, const std::string& name)
+    {
+        NamedSpace space;  // linear light, if the name says only that
+        const double gamma = double(spec.get_float_attribute("oiio:Gamma"));
+        return gamma > 0.0 && (says_only_linear(lower(name)) || find_named_space(lower(name), space))
+            && space.offset == 0.0 && space.primaries == kRec709 && std::fabs(space.gamma - gamma) < 0.06;
+    }
+
     /// An ICC profile counts if the metadata name no space, or only the one that files of the format usually are in.
     bool use_icc(const OIIO::ImageSpec& spec, const std::string& name)
     {
         const OIIO::ParamValue* attribute = spec.find_attribute("ICCProfile");
-        const bool is_usual = name.empty() || names_srgb(lower(name));
+        const bool is_usual = name.empty() || names_srgb(lower(name)) || says_only_gamma(spec, name);
         IccSpace icc;
         if (attribute == nullptr || !is_usual || !read_icc(attribute->data(), std::size_t(attribute->datasize()), icc))
             return false;
@@ -561,9 +570,14 @@ bool holds_data(const OIIO::ImageSpec& spec, int channel, const Colour& colour)
 
 void Colour::declare_linear(OIIO::ImageSpec& spec) const
 {
-    declare_space(spec, m_linear_name);
-    if (m_chromaticities.size() == 8)
-        spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), m_chromaticities.data());
+    if (m_chromaticities.size() != 8) {
+        declare_space(spec, m_linear_name);
+        return;
+    }
+    Chromaticities primaries;
+    std::copy(m_chromaticities.begin(), m_chromaticities.end(), primaries.begin());
+    declare_space(spec, m_linear_name == kDeclaredLinear ? with_primaries(kDeclaredLinear, primaries) : m_linear_name);
+    spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), m_chromaticities.data());
 }
 
 void log2_in_place(float* values, std::size_t count)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "colour/spaces.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <utility>
 
@@ -17,14 +19,23 @@ bool drop_ending(std::string& text, const std::string& ending)
     return true;
 }
 
+/// The Color Interop Forum's words for primaries, which may be part of a name that is written.
+constexpr std::pair<const char*, const Chromaticities&> kWords[] = {
+    { "rec709", kRec709 }, { "rec2020", kRec2020 }, { "p3d65", kP3 },         { "ap0", kAp0 },
+    { "ap1", kAp1 },       { "adobergb", kAdobe },  { "ciexyzd65", kXyzD65 },
+};
+
 bool find_primaries(const std::string& word, Chromaticities& primaries)
 {
-    static const std::pair<const char*, Chromaticities> known[] = {
-        { "rec709", kRec709 }, { "srgb", kRec709 },       { "rec2020", kRec2020 }, { "p3d65", kP3 },
-        { "ap0", kAp0 },       { "ap1", kAp1 },           { "adobergb", kAdobe },  { "ciexyzd65", kXyzD65 },
-        { "xyz", kXyzD65 },    { "prophoto", kProPhoto }, { "romm", kProPhoto },
+    static const std::pair<const char*, Chromaticities> others[] = {
+        { "srgb", kRec709 }, { "xyz", kXyzD65 }, { "prophoto", kProPhoto }, { "romm", kProPhoto }
     };
-    for (const auto& [name, values] : known)
+    for (const auto& [name, values] : kWords)
+        if (word == name) {
+            primaries = values;
+            return true;
+        }
+    for (const auto& [name, values] : others)
         if (word == name) {
             primaries = values;
             return true;
@@ -116,6 +127,21 @@ bool find_named_space(const std::string& name, NamedSpace& space)
             return true;
         }
     return find_gamma_space(name, space) || find_interop_space(name, space);
+}
+
+std::string with_primaries(std::string name, const Chromaticities& primaries)
+{
+    const std::string own = "rec709";
+    const std::size_t at = name.find(own);
+    if (at == std::string::npos)
+        return name;
+    const auto are_same = [](double a, double b) {
+        return std::fabs(a - b) < 1e-4;
+    };
+    for (const auto& [word, values] : kWords)
+        if (std::equal(values.begin(), values.end(), primaries.begin(), are_same))
+            return name.replace(at, own.size(), word);
+    return {};
 }
 
 }  // namespace PIMG_ABI

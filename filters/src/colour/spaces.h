@@ -28,5 +28,9 @@ bool names_srgb(const std::string& lower_case);
 /// Interop Forum (lin_ap1_scene), of the ACES configurations (ACEScg, Linear Rec.2020) and of old ones; in lower case.
 bool find_named_space(const std::string& lower_case, NamedSpace& space);
 
+/// The name of a space of Rec. 709, lin_rec709_scene, changed for other primaries: lin_ap1_scene; empty if none is agreed
+/// on. A name that says nothing of primaries, Linear, stays as it is.
+std::string with_primaries(std::string name, const Chromaticities& primaries);
+
 }  // namespace PIMG_ABI
 }  // namespace pimg

@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "colour/spaces.h"
+
 namespace pimg {
 namespace {
 
@@ -80,6 +82,15 @@ TEST(Colour, NamesOfAllGenerationsMeanTheSameInMetadata)
                 expect_same(meaning(first), meaning(other), names[0] + ", " + name);
             }
         }
+}
+
+TEST(Colour, NamesOfLinearLightSayItsPrimaries)
+{
+    EXPECT_EQ(with_primaries("lin_rec709_scene", kRec709), "lin_rec709_scene");
+    EXPECT_EQ(with_primaries("lin_rec709_scene", kAp1), "lin_ap1_scene");
+    EXPECT_EQ(with_primaries("lin_rec709", kP3), "lin_p3d65");
+    EXPECT_EQ(with_primaries("lin_rec709_scene", kProPhoto), "");
+    EXPECT_EQ(with_primaries("Linear", kAp1), "Linear");
 }
 
 TEST(Colour, SpacesDiffer)

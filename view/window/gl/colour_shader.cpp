@@ -219,12 +219,19 @@ void ColourShader::Tables::add_curve(const ocio::GpuShaderDesc& shader, unsigned
     ocio::GpuShaderDesc::TextureType channel = ocio::GpuShaderDesc::TEXTURE_RGB_CHANNEL;
     ocio::Interpolation interpolation = ocio::INTERP_LINEAR;
     const float* values = nullptr;
+#if OCIO_VERSION_HEX >= 0x02030000  // where a curve of one row may be a texture of two dimensions
+    ocio::GpuShaderDesc::TextureDimensions dimensions = ocio::GpuShaderDesc::TEXTURE_1D;
+    shader.getTexture(index, texture, sampler, width, height, channel, dimensions, interpolation);
+    const bool is_plane = dimensions == ocio::GpuShaderDesc::TEXTURE_2D;
+#else
     shader.getTexture(index, texture, sampler, width, height, channel, interpolation);
+    const bool is_plane = height > 1;
+#endif
     shader.getTextureValues(index, values);
     const bool red = channel == ocio::GpuShaderDesc::TEXTURE_RED_CHANNEL;
     const GLenum numbers = red ? GL_RED : GL_RGB;
     const GLint stored = red ? GL_R32F : GL_RGB32F;
-    if (height > 1) {
+    if (is_plane) {
         begin(GL_TEXTURE_2D, sampler, interpolation);
         glTexImage2D(GL_TEXTURE_2D, 0, stored, GLsizei(width), GLsizei(height), 0, numbers, GL_FLOAT, values);
     } else {
