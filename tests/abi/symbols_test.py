@@ -21,7 +21,7 @@ ENTRY_POINTS = {"_pimg": {"PyInit__pimg"}, "pimg": {"gegl_module_query", "gegl_m
 # What the standard library calls its types, as users write them.
 SPELLINGS = ((r"std::__cxx11::basic_string<char, std::char_traits<char>, std::allocator<char> >", "std::string"),
              (r"std::basic_string_view<char, std::char_traits<char> >", "std::string_view"),
-             (r"OpenImageIO_v\d_\d::", "OIIO::"),
+             (r"OpenImageIO(_|::)v\d+_\d+::", "OIIO::"),
              (r"fmt::v\d+::", "fmt::"))
 ALLOCATOR = re.compile(r", std::allocator<(?:[^<>]|<(?:[^<>]|<(?:[^<>]|<[^<>]*>)*>)*>)*> ?>")
 

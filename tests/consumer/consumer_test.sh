@@ -41,7 +41,7 @@ fi
 grep -q "pimg::filters was built with OpenImageIO .*, found: '9.9.9'" refused.log || { cat refused.log; exit 1; }
 
 echo "== pkg-config"
-export PKG_CONFIG_PATH="$PWD/moved/$LIBDIR/pkgconfig"
+export PKG_CONFIG_PATH="$PWD/moved/$LIBDIR/pkgconfig${PKG_CONFIG_PATH:+:$PKG_CONFIG_PATH}"
 pkg-config --print-requires pimg | grep -q "^OpenImageIO < "
 [[ $(pkg-config --modversion pimg) == "$VERSION" && $(pkg-config --modversion pimg-c) == "$VERSION" ]]
 # shellcheck disable=SC2046,SC2086  # flags are words

@@ -7,7 +7,7 @@ set -euo pipefail
 code() { "$PYTHON" "$SOURCE/tests/docs/markdown_code.py" "$SOURCE/docs/hosts.md" "$1"; }
 
 rm -rf host && mkdir host
-export PKG_CONFIG_PATH="$INSTALLED/$LIBDIR/pkgconfig"
+export PKG_CONFIG_PATH="$INSTALLED/$LIBDIR/pkgconfig${PKG_CONFIG_PATH:+:$PKG_CONFIG_PATH}"
 
 echo "== C++, find_package"
 code cmake >host/CMakeLists.txt

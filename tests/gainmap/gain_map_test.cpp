@@ -223,7 +223,8 @@ TEST(GainMap, FlatPictures)
     for (const float value : { 0.0f, 0.5f }) {
         ImageBuf flat(ImageSpec(kWidth, kHeight, 3, OIIO::TypeFloat));
         for (ImageBuf::Iterator<float> p(flat); !p.done(); ++p)
-            p[0] = p[1] = p[2] = value;
+            for (int c = 0; c < 3; ++c)
+                p[c] = value;
         flat.specmod().attribute("oiio:ColorSpace", "lin_rec709");
         std::string file, error;
         ASSERT_TRUE(pimg::add_gain_map(jpeg_of(flat), flat, {}, file, error)) << error;

@@ -19,7 +19,8 @@ class Catalogue(plugin_files.PluginTest):
     def test_formats_list_it_once(self):
         listed = self.ok("oiiotool", "--list-formats")
         self.assertEqual(re.findall(r"pimg *:.*", listed), ["pimg : pimg"], listed)
-        self.assertIn("pimg 0", self.ok("oiiotool", "--help"))
+        if oiio.VERSION < 30000:  # later ones list no libraries of formats
+            self.assertIn("pimg 0", self.ok("oiiotool", "--help"))
         self.assertIn("pimg", oiio.get_string_attribute("format_list").split(","))
 
     def test_a_searchpath_finds_it_without_the_environment(self):

@@ -65,7 +65,8 @@ class Encoded(pictures.ToolTest):
         for source in ("in.png", "encoded.exr"):
             for words in (["--hdr-compress"], ["--tocolorspace", "linear"]):
                 self.ok(source, *words, "-d", "half", "-o", "linear.exr")
-                self.assertEqual(spec_of("linear.exr").get_string_attribute("colorInteropID"), "")
+                name = spec_of("linear.exr").get_string_attribute("colorInteropID")
+                self.assertIn(name, ("", "lin_rec709_scene"))  # OpenImageIO 3.1 writes it of itself
 
     def test_formats_without_a_word_for_it_are_warned_of(self):
         pictures.write("in.png", pictures.scene(64, 48), "uint8")

@@ -6,6 +6,7 @@ import subprocess
 import unittest
 
 import numpy as np
+import OpenImageIO as oiio
 
 import pictures
 from pictures import codes, oiiotool, read, spec_of, srgb
@@ -118,7 +119,8 @@ class FullDisk(OutputTest):
 class Targets(OutputTest):
     def test_links_modes_and_pipes_are_respected(self):
         os.mkdir("elsewhere")
-        for extension in ("png", "exr", "jp2", "pimg"):
+        extensions = [e for e in ("png", "exr", "jp2") if oiio.ImageOutput.create("a." + e)] + ["pimg"]
+        for extension in extensions:
             real, link = "elsewhere/real." + extension, "link." + extension
             self.ok("rgb.png", "-o", real)
             os.chmod(real, 0o640)
@@ -177,7 +179,7 @@ class Encoding(OutputTest):
         linear = read("out.exr")
         for name in ("out.png", "out.tif"):
             self.assert_codes(name, quantised(srgb(linear)))
-            self.assertEqual(spec_of(name)["oiio:ColorSpace"], "sRGB")
+            self.assertIn(spec_of(name)["oiio:ColorSpace"], pictures.SRGB)
         self.assert_codes("raw.png", quantised(linear))
         self.assertNotEqual(spec_of("raw.png")["oiio:ColorSpace"], "sRGB")
 

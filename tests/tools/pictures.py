@@ -11,6 +11,8 @@ import OpenImageIO as oiio
 
 import warm
 
+SRGB = ("sRGB", "srgb_rec709_scene")  # what OpenImageIO calls it, up to 3.0 and later
+
 TOOL = os.path.abspath(os.environ["PIMGTOOL"])
 
 # Nothing of the user's may change a result.
