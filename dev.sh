@@ -40,8 +40,10 @@ usage: ./dev.sh COMMAND
           --quick  20 s for each: those of the codec instrumented, and the tests of core and codec in the same build;
                    the others blindly in the release build
   sanitize  setup, then the tests of core, codec and painting and the replay of all kept inputs with AddressSanitizer,
-          UndefinedBehaviorSanitizer and the assertions of libstdc++ in build/sanitize; --threads, --memory: with
-          ThreadSanitizer, MemorySanitizer instead
+          UndefinedBehaviorSanitizer and the assertions of libstdc++
+          --threads [FOLDER]  with ThreadSanitizer; with FOLDER, where an OpenImageIO is installed that was itself built
+                     with it, the tests that call filters and the plugin from many threads, too
+          --memory   with MemorySanitizer, the replay alone
   package setup, make the Debian packages in build/package and look them over with lintian
   demo    setup, build, tone-map a real HDR photograph and more, in build/demo
   gallery setup, build, make every figure of the paper and more in docs/gallery (some minutes)
@@ -248,7 +250,7 @@ fuzz_quickly() { # target
 # others, whose libraries take minutes to instrument, blindly in the release build.
 run_fuzz_quick() {
     local failed=0
-    build_fuzz "$quick_tree" -DPIMG_CODEC_ONLY=ON "${quick_targets[@]/#/fuzz_}" core_and_codec_tests
+    build_fuzz "$quick_tree" -DPIMG_CODEC_ONLY=ON "${quick_targets[@]/#/fuzz_}" tests_of_core tests_of_codec
     configure -DPIMG_BUILD_BENCH=OFF -DPIMG_WERROR=ON
     compile fuzz_replays
     say "20 s for each target"
@@ -258,25 +260,41 @@ run_fuzz_quick() {
     return "$failed"
 }
 
-run_sanitize() { # --threads, --memory
-    setup
-    mkdir -p build
-    local preset=asan
+run_sanitize() { # --threads [folder], --memory
+    local preset=asan options=(-DPIMG_CODEC_ONLY=ON) targets=(all) tests=.
     case ${1:-} in
     '') ;;
-    --threads) preset=tsan ;;
+    --threads)
+        preset=tsan
+        if [[ -n ${2:-} ]]; then
+            options=(-DPIMG_CODEC_ONLY=OFF -DCMAKE_PREFIX_PATH="$2")
+            targets=(tests_of_{core,codec,painting,plugin} filters_base_threads_test pimg.imageio)
+            tests='^(core|codec|painting)\.|^filters\.base\.threads$|^plugin\.plugin$'
+        fi
+        ;;
     --memory) preset=msan ;;
     *) usage >&2 && exit 2 ;;
     esac
-    say "core, codec and painting with $preset"
-    cmake --preset "$preset" -B "build/sanitize-$preset" -DPIMG_CODEC_ONLY=ON >"build/$preset.log" ||
-        { cat "build/$preset.log"; return 1; }
-    cmake --build "build/sanitize-$preset" -j "$jobs"
+    local tree=build/sanitize-$preset launcher=()
     if [[ $preset == msan ]]; then
-        "build/sanitize-$preset/fuzz/fuzz_decoder_replay" fuzz/crashes/decoder "build/sanitize-$preset/fuzz/corpus/decoder"
-        "build/sanitize-$preset/fuzz/fuzz_roundtrip_replay" "build/sanitize-$preset/fuzz/corpus/roundtrip"
+        packages+=(clang libclang-rt-14-dev)
+        targets=(fuzz_{decoder,roundtrip}_replay)
+    fi
+    setup
+    mkdir -p build
+    if command -v ccache >/dev/null; then
+        launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+    fi
+    say "building in $tree"
+    cmake --preset "$preset" -B "$tree" "${options[@]}" ${launcher[@]+"${launcher[@]}"} >"build/$preset.log" ||
+        { cat "build/$preset.log"; return 1; }
+    cmake --build "$tree" -j "$jobs" --target "${targets[@]}"
+    say "running what was built"
+    if [[ $preset == msan ]]; then
+        "$tree/fuzz/fuzz_decoder_replay" fuzz/crashes/decoder "$tree/fuzz/corpus/decoder"
+        "$tree/fuzz/fuzz_roundtrip_replay" "$tree/fuzz/corpus/roundtrip"
     else
-        ctest --test-dir "build/sanitize-$preset" --output-on-failure -j "$jobs"
+        TSAN_OPTIONS=suppressions=$PWD/tests/tsan.supp ctest --test-dir "$tree" --output-on-failure -j "$jobs" -R "$tests"
     fi
 }
 
