@@ -144,7 +144,7 @@ py::object to_python(ImageBuf result, Form form, int channels_of_source)
     py::array array(type, shape);
     if (!result.get_pixels(result.roi(), sample_type(type), array.mutable_data()))
         throw std::runtime_error(result.geterror());
-    return std::move(array);
+    return py::object(std::move(array));
 }
 
 OIIO::ROI to_roi(const py::object& object)

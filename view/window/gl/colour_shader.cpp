@@ -195,8 +195,8 @@ void ColourShader::Tables::begin(GLenum kind, const char* sampler, ocio::Interpo
     const GLint filter = interpolation == ocio::INTERP_NEAREST ? GL_NEAREST : GL_LINEAR;
     glTexParameteri(kind, GL_TEXTURE_MIN_FILTER, filter);
     glTexParameteri(kind, GL_TEXTURE_MAG_FILTER, filter);
-    for (const GLenum side : { GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R })
-        glTexParameteri(kind, side, GL_CLAMP_TO_EDGE);
+    for (const int side : { GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R })
+        glTexParameteri(kind, GLenum(side), GL_CLAMP_TO_EDGE);
 }
 
 void ColourShader::Tables::add_cube(const ocio::GpuShaderDesc& shader, unsigned index)
