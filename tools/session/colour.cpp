@@ -89,6 +89,8 @@ std::string scene_linear_space()
 std::string convertible_space(const pimg::Colour& colour)
 {
     const std::string& name = colour.config_name();
+    if (name == "sRGB" && !has_configuration())
+        return pimg::srgb_without_config(colour_config());
     return name.empty() || (name == "linear" && !has_configuration()) ? scene_linear_space() : name;
 }
 

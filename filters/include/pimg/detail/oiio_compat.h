@@ -2,6 +2,7 @@
 // What differs between the versions of OpenImageIO that pimg is built with, 2.4 to 3.2, in one place (docs/hosts.md).
 #pragma once
 
+#include <initializer_list>
 #include <memory>
 #include <string>
 
@@ -93,6 +94,8 @@ inline std::string default_view(const OIIO::ColorConfig& config, const std::stri
 {
 #if OIIO_VERSION >= OIIO_MAKE_VERSION(3, 1, 0)
     const char* name = config.getDefaultViewName(display, from);
+    if (name == nullptr || *name == '\0')  // rules for that space name none
+        name = config.getDefaultViewName(display);
 #else
     (void)from;
     const char* name = config.getDefaultViewName(display);
@@ -100,20 +103,34 @@ inline std::string default_view(const OIIO::ColorConfig& config, const std::stri
     return name == nullptr ? "" : name;
 }
 
-/// The name of linear light in Rec. 709, the space that filters take pictures to be in when $OCIO names no configuration.
-/// OpenImageIO 2.5 and newer then fall back to one that OpenColorIO brings, whose role scene_linear may be another space.
-inline std::string linear_rec709_without_config(const OIIO::ColorConfig& config)
+/// When $OCIO names no configuration, OpenImageIO 2.5 and newer fall back to one that OpenColorIO brings: the name it has
+/// for a space, given by names for it, or `otherwise`, the name of OpenImageIO 2.4.
+inline std::string space_without_config(const OIIO::ColorConfig& config, std::initializer_list<const char*> names,
+                                        const char* otherwise)
 {
 #if OIIO_VERSION >= OIIO_MAKE_VERSION(2, 5, 0)
-    for (const char* alias : { "lin_rec709_scene", "lin_rec709", "Linear Rec.709 (sRGB)" }) {
+    for (const char* alias : names) {
         const std::string name(config.resolve(alias));
         if (config.getColorSpaceIndex(name) >= 0)
             return name;
     }
 #else
     (void)config;
+    (void)names;
 #endif
-    return "linear";
+    return otherwise;
+}
+
+/// So for linear light in Rec. 709, which filters take pictures to be in then; the role scene_linear may be another space.
+inline std::string linear_rec709_without_config(const OIIO::ColorConfig& config)
+{
+    return space_without_config(config, { "lin_rec709_scene", "lin_rec709", "Linear Rec.709 (sRGB)" }, "linear");
+}
+
+/// So for sRGB.
+inline std::string srgb_without_config(const OIIO::ColorConfig& config)
+{
+    return space_without_config(config, { "srgb_rec709_scene", "srgb_tx", "sRGB - Texture" }, "sRGB");
 }
 
 /// What linear light in Rec. 709 is called in metadata.
