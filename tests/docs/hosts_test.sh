@@ -25,7 +25,7 @@ echo "== C, pkg-config"
 code c >host/host.c
 # shellcheck disable=SC2046  # flags are words
 "$CC" -std=c99 -Wall -Wextra -Werror host/host.c -o host/host_c $(pkg-config --cflags --libs pimg-c)
-LD_LIBRARY_PATH="$INSTALLED/$LIBDIR" host/host_c
+LD_LIBRARY_PATH="$INSTALLED/$LIBDIR${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" host/host_c
 if command -v nm >/dev/null; then
     strangers=$(nm -D --defined-only "$INSTALLED/$LIBDIR/libpimg.so" | awk '$3 !~ /^pimg_/')
     [[ -z $strangers ]] || { echo "libpimg exports $strangers"; exit 1; }
