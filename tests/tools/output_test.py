@@ -2,6 +2,7 @@
 """What pimgtool writes: types, sRGB encoding, colour operations, windows, metadata, whole files or none."""
 
 import os
+import resource
 import subprocess
 import unittest
 
@@ -117,6 +118,21 @@ class FullDisk(OutputTest):
 
 
 class Targets(OutputTest):
+    def test_nothing_stays_when_a_library_ends_the_program(self):
+        """libjpeg does, when there is no room for the last bytes of a file."""
+        self.ok("rgb.png", "-o", "old.jpg")
+        with open("old.jpg", "rb") as file:
+            before = file.read()
+        names = set(os.listdir("."))
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (400, 400))
+        done = subprocess.run([pictures.TOOL, "rgb.png", "--hdr-compress", "-o", "old.jpg"], preexec_fn=limit,
+                              stderr=subprocess.PIPE, text=True)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertEqual(set(os.listdir(".")), names)
+        with open("old.jpg", "rb") as file:
+            self.assertEqual(file.read(), before)
+
     def test_links_modes_and_pipes_are_respected(self):
         os.mkdir("elsewhere")
         extensions = [e for e in ("png", "exr", "jp2") if oiio.ImageOutput.create("a." + e)] + ["pimg"]

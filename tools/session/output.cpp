@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <mutex>
 
@@ -31,18 +32,23 @@ using OIIO::TypeDesc;
 namespace Filesystem = OIIO::Filesystem;
 using pimg::format;
 
-/// The most files that are written at the same time, one by each frame. Their names are kept for the signal handler, so
-/// that interrupted work leaves nothing behind.
+/// The most files that are written at the same time, one by each frame. Their names are kept for the signal handler and
+/// for libraries of formats that end the program, as libjpeg does on a full disk, so that nothing is left behind.
 constexpr int kUnfinished = 256;
 char unfinished_files[kUnfinished][4096];
 std::mutex unfinished_mutex;
 int unfinished_count = 0;
 
-void remove_unfinished(int signal)
+void remove_unfinished()
 {
     for (const char* name : unfinished_files)
         if (name[0] != '\0')
             unlink(name);
+}
+
+void end_interrupted(int signal)
+{
+    remove_unfinished();
     _exit(128 + signal);
 }
 
@@ -68,7 +74,9 @@ public:
                 break;
             }
         if (unfinished_count++ == 0)
-            on_interruption(remove_unfinished);
+            on_interruption(end_interrupted);
+        static const int once = std::atexit(remove_unfinished);
+        (void)once;
     }
     ~TemporaryName()
     {
