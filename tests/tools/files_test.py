@@ -2,8 +2,11 @@
 """Files as people have them: of several parts, on standard input and output, on their side, with colours under alpha 0."""
 
 import os
+import resource
+import struct
 import subprocess
 import unittest
+import zlib
 
 import numpy as np
 import OpenImageIO as oiio
@@ -260,6 +263,33 @@ class Streams(pictures.ToolTest):
         os.close(writer)
         self.assertEqual(done.returncode, 1)
         self.assertEqual(done.stderr.count("\n"), 1)
+
+
+class Claims(pictures.ToolTest):
+    def test_a_few_bytes_take_no_memory_for_what_they_only_claim(self):
+        """A .pimg file of 30000 x 30000 pixels that has none of them."""
+        pictures.write("in.png", pictures.scene(64, 48), "uint8")
+        self.ok("in.png", "-o", "in.pimg")
+        with open("in.pimg", "rb") as file:
+            data = file.read()
+        claim, at = data[:8], 8
+        while at < len(data):
+            kind, length = struct.unpack_from("<4s4xQ", data, at)
+            chunk = bytearray(data[at : at + 16 + length])
+            if kind == b"HEAD":
+                for side in (16, 32):  # of the data window, of the display window
+                    struct.pack_into("<II", chunk, 16 + side, 30000, 30000)
+            if kind in (b"HEAD", b"CHAN", b"DONE"):
+                claim += bytes(chunk) + struct.pack("<I", zlib.crc32(chunk))
+            at += 20 + length
+        with open("claim.pimg", "wb") as file:
+            file.write(claim)
+        limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30))
+        done = subprocess.run([pictures.TOOL, "claim.pimg", "-o", "out.exr"], preexec_fn=limit, stderr=subprocess.PIPE,
+                              text=True)
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, "^pimgtool: error: cannot read \"claim.pimg\": .*(tiles|order).*\n$")
+        self.assertFalse(os.path.exists("out.exr"))
 
 
 class Unassociated(pictures.ToolTest):

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include <OpenImageIO/deepdata.h>
 #include <OpenImageIO/filesystem.h>
@@ -49,6 +50,17 @@ std::unique_ptr<OIIO::ImageInput> open_input(const std::string& filename, const 
     return input;
 }
 
+/// Whether a large picture has its first row. A .pimg file of a few bytes may claim a picture of many gigabytes: what cannot
+/// be read is refused before there is memory for all of it.
+bool has_first_row(OIIO::ImageInput& input, const ImageSpec& stored)
+{
+    constexpr OIIO::imagesize_t kLarge = 1 << 26;
+    if (std::string(input.format_name()) != "pimg" || stored.image_bytes(true) < kLarge)
+        return true;
+    std::vector<unsigned char> row(stored.scanline_bytes(true));
+    return input.read_scanline(stored.y, stored.z, OIIO::TypeDesc::UNKNOWN, row.data());
+}
+
 /// Reads one part into memory of our own, in the file's type.
 bool read_part(OIIO::ImageInput& input, InputPart& part, const Progress& progress, std::string& error)
 {
@@ -58,6 +70,10 @@ bool read_part(OIIO::ImageInput& input, InputPart& part, const Progress& progres
     };
     input.seek_subimage(part.number, 0);
     part.stored = input.spec();
+    if (!has_first_row(input, part.stored)) {
+        error = input.geterror();
+        return false;
+    }
     ImageSpec spec = part.stored;
     spec.channelformats.clear();
     spec.tile_width = spec.tile_height = spec.tile_depth = 0;
