@@ -112,6 +112,7 @@ int main(int argc, char** argv)
     }
     if (is_timed) {
         std::vector<std::vector<std::uint8_t>> inputs;
+        inputs.reserve(files.size());
         for (const std::string& file : files)
             inputs.push_back(bytes_of(file));
         std::printf("%zu executions\n", mutate_blindly(inputs, seconds));
