@@ -7,6 +7,12 @@ cd "$(dirname "$0")"
 readonly build=build/release
 readonly jobs=2
 
+# For every configuration: the compiler cache, if there is one.
+launcher=()
+if command -v ccache >/dev/null; then
+    launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+fi
+
 # Everything comes from Debian 12. openimageio-tools brings oiiotool, without which CMake's OpenImageIO package fails.
 packages=(
     g++ cmake ninja-build pkg-config
@@ -84,11 +90,7 @@ setup() {
 }
 
 configure() { # cmake options...
-    local launcher=()
-    if command -v ccache >/dev/null; then
-        launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-    fi
-    cmake --preset release "${launcher[@]}" "$@" >"$build.configure.log" || {
+    cmake --preset release ${launcher[@]+"${launcher[@]}"} "$@" >"$build.configure.log" || {
         cat "$build.configure.log"
         return 1
     }
@@ -161,15 +163,12 @@ run_check() { # options as in usage()
 readonly fuzz_targets=(decoder roundtrip stroke_file build colour options metadata plugin command_line shot gain_map)
 
 build_fuzz() { # tree, option or '', targets of the build...
-    local tree=$1 option=$2 launcher=()
+    local tree=$1 option=$2
     shift 2
     packages+=(clang libclang-rt-14-dev)
     setup
     say "building the fuzz targets in $tree"
     mkdir -p build
-    if command -v ccache >/dev/null; then
-        launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-    fi
     cmake --preset fuzz -B "$tree" ${launcher[@]+"${launcher[@]}"} ${option:+"$option"} >"$tree.configure.log" ||
         { cat "$tree.configure.log"; return 1; }
     cmake --build "$tree" -j "$jobs" --target "$@"
@@ -275,16 +274,13 @@ run_sanitize() { # --threads [folder], --memory
     --memory) preset=msan ;;
     *) usage >&2 && exit 2 ;;
     esac
-    local tree=build/sanitize-$preset launcher=()
+    local tree=build/sanitize-$preset
     if [[ $preset == msan ]]; then
         packages+=(clang libclang-rt-14-dev)
         targets=(fuzz_{decoder,roundtrip}_replay)
     fi
     setup
     mkdir -p build
-    if command -v ccache >/dev/null; then
-        launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-    fi
     say "building in $tree"
     cmake --preset "$preset" -B "$tree" "${options[@]}" ${launcher[@]+"${launcher[@]}"} >"build/$preset.log" ||
         { cat "build/$preset.log"; return 1; }
@@ -301,17 +297,14 @@ run_sanitize() { # --threads [folder], --memory
 run_package() {
     packages+=(dpkg-dev file fakeroot lintian)
     setup
-    local tree=build/package epoch launcher=()
+    local tree=build/package epoch
     epoch=$(git log -1 --format=%ct 2>/dev/null || date +%s)
     export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$epoch}
-    if command -v ccache >/dev/null; then
-        launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-    fi
     say "building the packages in $tree"
     mkdir -p build
     cmake -S . -B "$tree" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=/usr -DPIMG_PACKAGING=ON \
         -DPIMG_WERROR=ON -DPIMG_BUILD_TESTS=OFF -DPIMG_BUILD_BENCH=OFF -DPIMG_BUILD_PYTHON=ON -DPIMG_BUILD_GEGL=ON \
-        -DPIMG_BUILD_VIEW=ON -DPIMG_BUILD_OFX=OFF -DPIMG_INSTALL_PYTHONDIR=lib/python3/dist-packages "${launcher[@]}" >"$tree.configure.log" ||
+        -DPIMG_BUILD_VIEW=ON -DPIMG_BUILD_OFX=OFF -DPIMG_INSTALL_PYTHONDIR=lib/python3/dist-packages ${launcher[@]+"${launcher[@]}"} >"$tree.configure.log" ||
         { cat "$tree.configure.log"; return 1; }
     cmake --build "$tree" -j "$jobs"
     (cd "$tree" && rm -f ./*.deb && cpack -G DEB >cpack.log) || { cat "$tree/cpack.log"; return 1; }

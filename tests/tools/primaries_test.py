@@ -172,6 +172,11 @@ def icc_profile(primaries, gamma):
     return header + struct.pack(">I", len(tags)) + table + body
 
 
+def means(name):
+    """The colours of the patches of an 8-bit file, without their borders."""
+    return codes(name).reshape(2, 48, 4, 32, 3)[:, 8:-8, :, 8:-8].mean((1, 3))
+
+
 class Profiles(PrimariesTest):
     ADOBE = [0.64, 0.33, 0.21, 0.71, 0.15, 0.06, 0.3127, 0.3290]
     PROPHOTO = [0.734699, 0.265301, 0.159597, 0.840403, 0.036598, 0.000105, 0.345704, 0.358540]
@@ -203,9 +208,7 @@ class Profiles(PrimariesTest):
                         done = self.run_tool("-v", name, "--hdr-compress", "-o", "out.png", env=environment)
                         self.assertEqual(done.returncode, 0, done.stderr)
                         self.assertIn("ICC profile", done.stderr)
-                        mean = lambda f: codes(f).reshape(2, 48, 4, 32, 3)[:, 8:-8, :, 8:-8].mean((1, 3))
-                        self.assertLessEqual(np.abs(mean("out.png") - mean("expected.png")).max(), 2)
-
+                        self.assertLessEqual(np.abs(means("out.png") - means("expected.png")).max(), 2)
 
     def test_icc_profiles_of_png_files_outrank_their_gamma(self):
         """A PNG file may have both chunks; its standard says which one counts."""
@@ -232,8 +235,7 @@ class Profiles(PrimariesTest):
                 self.assertAlmostEqual(spec_of("both.png").getattribute("oiio:Gamma"), gamma, 2)
                 done = self.run_tool("-v", "both.png", "--hdr-compress", "-o", "out.png")
                 self.assertIn("ICC profile", done.stderr)
-                mean = lambda f: codes(f).reshape(2, 48, 4, 32, 3)[:, 8:-8, :, 8:-8].mean((1, 3))
-                self.assertLessEqual(np.abs(mean("out.png") - mean("expected.png")).max(), 2)
+                self.assertLessEqual(np.abs(means("out.png") - means("expected.png")).max(), 2)
 
     @staticmethod
     def without(chunks, name):

@@ -19,25 +19,26 @@ bool drop_ending(std::string& text, const std::string& ending)
     return true;
 }
 
-/// The Color Interop Forum's words for primaries, which may be part of a name that is written.
-constexpr std::pair<const char*, const Chromaticities&> kWords[] = {
-    { "rec709", kRec709 }, { "rec2020", kRec2020 }, { "p3d65", kP3 },         { "ap0", kAp0 },
-    { "ap1", kAp1 },       { "adobergb", kAdobe },  { "ciexyzd65", kXyzD65 },
+struct PrimariesWord {
+    const char* word;
+    const Chromaticities& primaries;
+    bool is_agreed;  ///< by the Color Interop Forum: may be part of a name that is written
+};
+
+constexpr PrimariesWord kWords[] = {
+    { "rec709", kRec709, true },    { "rec2020", kRec2020, true },
+    { "p3d65", kP3, true },         { "ap0", kAp0, true },
+    { "ap1", kAp1, true },          { "adobergb", kAdobe, true },
+    { "ciexyzd65", kXyzD65, true }, { "srgb", kRec709, false },
+    { "xyz", kXyzD65, false },      { "prophoto", kProPhoto, false },
+    { "romm", kProPhoto, false },
 };
 
 bool find_primaries(const std::string& word, Chromaticities& primaries)
 {
-    static const std::pair<const char*, Chromaticities> others[] = {
-        { "srgb", kRec709 }, { "xyz", kXyzD65 }, { "prophoto", kProPhoto }, { "romm", kProPhoto }
-    };
-    for (const auto& [name, values] : kWords)
-        if (word == name) {
-            primaries = values;
-            return true;
-        }
-    for (const auto& [name, values] : others)
-        if (word == name) {
-            primaries = values;
+    for (const PrimariesWord& known : kWords)
+        if (word == known.word) {
+            primaries = known.primaries;
             return true;
         }
     return false;
@@ -138,9 +139,9 @@ std::string with_primaries(std::string name, const Chromaticities& primaries)
     const auto are_same = [](double a, double b) {
         return std::fabs(a - b) < 1e-4;
     };
-    for (const auto& [word, values] : kWords)
-        if (std::equal(values.begin(), values.end(), primaries.begin(), are_same))
-            return name.replace(at, own.size(), word);
+    for (const PrimariesWord& known : kWords)
+        if (known.is_agreed && std::equal(primaries.begin(), primaries.end(), known.primaries.begin(), are_same))
+            return name.replace(at, own.size(), known.word);
     return {};
 }
 
